@@ -1,0 +1,28 @@
+// The host's side of kernels/types.h: OpenCL-sized vectors, then the structs, then their sizes.
+#pragma once
+#include <array>
+#include <cstdint>
+
+namespace glintmark {
+
+using uint = std::uint32_t;
+
+struct alignas(8) float2 {
+  float x = 0, y = 0;
+};
+struct alignas(16) float4 {
+  float x = 0, y = 0, z = 0, w = 0;
+};
+
+#include "kernels/types.h"
+
+static_assert(sizeof(float2) == 8 && sizeof(float4) == 16);
+static_assert(sizeof(GlintMaterial) == 192);
+static_assert(sizeof(ConeLight) == 32);
+static_assert(sizeof(FrameParams) == 64);
+
+/// Sizes in the order in which probe.cl's `probeTypeSizes` reports them.
+inline constexpr std::array<std::uint32_t, 3> kSharedTypeSizes = {
+    sizeof(GlintMaterial), sizeof(ConeLight), sizeof(FrameParams)};
+
+}  // namespace glintmark

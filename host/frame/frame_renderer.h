@@ -1,0 +1,76 @@
+// Shades one view of a scene: rasterizes, uploads, runs the specialised kernels, reads back.
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "host/core/image.h"
+#include "host/core/planes.h"
+#include "host/ocl/device.h"
+#include "host/ocl/kernel_config.h"
+#include "host/raster/rasterizer.h"
+#include "host/scene/scene.h"
+
+namespace glintmark {
+
+/// What a user can choose about shading; the scene decides everything else.
+struct ShadingOptions {
+  int width_px = 1920;
+  int height_px = 1080;
+  int lanes = 0;  // 0: from the device
+  GlintMethod method = GlintMethod::kZk16;
+  int ka = 16;
+  bool glints = true;  // false: every glint material is shaded as its smooth lobe (the baseline)
+  bool count_cells = false;
+};
+
+/// Times of one frame [ns]. Shading is the sum over the launches of all materials.
+struct FrameTimes {
+  double raster_ns = 0;
+  double upload_ns = 0;
+  double shading_event_ns = 0;  // by the kernels' events
+  double shading_wall_ns = 0;   // enqueue to finish on the host's clock
+  double readback_ns = 0;
+};
+
+/// Cells visited, over the covered pixels of glint materials.
+struct CellCounts {
+  std::uint32_t min = 0, max = 0;
+  double mean = 0;
+  std::size_t glint_px = 0;    // pixels that ran the glint loop
+  std::size_t guard_hits = 0;  // pixels whose walk a limit cut short
+};
+
+class FrameRenderer {
+ public:
+  FrameRenderer(Device& device, const Scene& scene, const View& view, const ShadingOptions& options,
+                int thread_count = 0);
+  ~FrameRenderer();
+
+  /// Rasterizes and uploads; must come before shade(). Returns raster and upload times.
+  FrameTimes prepare();
+  /// Builds what is not built (once), launches every material's kernel and waits.
+  FrameTimes shade();
+  /// Radiance as an RGBA image (alpha 1 where covered, background 0), linear, scene units.
+  Image readRadiance(FrameTimes* times = nullptr);
+  /// Cells per pixel as a one-channel image, -1 where no glint material covers; needs count_cells.
+  Image readCells();
+  CellCounts cellCounts();
+
+  const PixelPlanes& planes() const;
+  const Camera& camera() const;
+  /// Configurations in use, one per launch.
+  const std::vector<KernelConfig>& configs() const;
+  /// Time spent in clBuildProgram and in each kernel's first enqueue, so far [ns].
+  double buildNs() const;
+  double firstEnqueueNs() const;
+  /// Bytes of device buffers held: planes, radiance, counts.
+  std::size_t bufferBytes() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace glintmark

@@ -1,0 +1,113 @@
+// Buffers, programs and launches without OpenCL types in the interface.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <variant>
+
+#include "host/ocl/device.h"
+#include "host/ocl/kernel_config.h"
+
+namespace glintmark {
+
+/// A device buffer.
+class Buffer {
+ public:
+  Buffer() = default;
+  /// Fresh device memory of `bytes` (at least 4 are allocated). Throws Error naming size and
+  /// device.
+  Buffer(Device& device, std::size_t bytes, const std::string& what);
+  /// Wraps page-aligned host memory: used in place on CPU devices (zero copy), else a device copy.
+  static Buffer wrapHost(Device& device, void* data, std::size_t bytes, const std::string& what);
+
+  /// Host to device; returns wall time [ns]. For wrapped memory the source must be that memory and
+  /// the call is free on devices that use it in place.
+  double write(const void* source, std::size_t bytes, std::size_t offset = 0);
+  /// Device to host; returns wall time [ns].
+  double read(void* target, std::size_t bytes, std::size_t offset = 0) const;
+  void fillZero();
+  std::size_t bytes() const;
+  bool empty() const { return !impl_; }
+
+  struct Impl;
+  Impl* impl() const { return impl_.get(); }  // for host/ocl only
+
+ private:
+  std::shared_ptr<Impl> impl_;
+};
+
+struct LaunchTimes {
+  double event_ns = 0;  // kernel START to END
+  double wall_ns = 0;   // enqueue to finish on the host
+};
+
+using KernelArg = std::variant<Buffer, std::int32_t, std::uint32_t, float>;
+
+/// One built kernel.
+class Kernel {
+ public:
+  /// Sets all arguments, enqueues a 1-D range rounded up to `local_size` and waits. `global_size` 0
+  /// does nothing. The first launch of a kernel and local size compiles on PoCL: its time is
+  /// reported apart by firstEnqueueNs(). Throws Error with the kernel's name and OpenCL error.
+  LaunchTimes launch(std::span<const KernelArg> args, std::size_t global_size,
+                     std::size_t local_size);
+  double firstEnqueueNs() const;  // sum of wall times of first launches
+
+  struct Impl;
+  explicit Kernel(std::shared_ptr<Impl> impl) : impl_(std::move(impl)) {}
+  Kernel() = default;
+
+ private:
+  std::shared_ptr<Impl> impl_;
+};
+
+/// One built program of kernels/<file>.
+class Program {
+ public:
+  Kernel kernel(const std::string& name) const;
+  double buildNs() const;  // 0 when it came from memory
+  bool fromDiskCache() const;
+  const std::string& options() const;
+  /// The compiled device binary as the driver gives it; on PoCL an archive. May be empty.
+  std::string binary() const;
+
+  struct Impl;
+  explicit Program(std::shared_ptr<Impl> impl) : impl_(std::move(impl)) {}
+  Program() = default;
+
+ private:
+  std::shared_ptr<Impl> impl_;
+};
+
+/// Builds programs from the kernel folder and keeps them in memory and on disk
+/// ($GLINTMARK_CACHE_DIR, else $XDG_CACHE_HOME/glintmark, else ~/.cache/glintmark; "off" turns the
+/// disk cache off). The disk key covers every file of the kernel folder, the options, and the
+/// device, platform and driver; corrupt or stale entries are rebuilt silently, never fatal.
+/// A build failure throws Error naming the file and the first error, and leaves preprocessed
+/// inputs, options and full log in a folder that the message names.
+class ProgramCache {
+ public:
+  explicit ProgramCache(Device& device);
+  /// `file` is relative to the kernel folder, e.g. "shade.cl".
+  Program get(const std::string& file, const KernelConfig& config);
+  /// The same with hand-made options, for probes and tests.
+  Program getWithOptions(const std::string& file, const std::string& options);
+
+ private:
+  struct Impl;
+  std::shared_ptr<Impl> impl_;
+};
+
+/// $GLINTMARK_KERNELS, else kernels/ next to the executable or in the source tree.
+std::string kernelFolder();
+
+/// Measured peaks of a device, by probe.cl.
+struct DevicePeaks {
+  double gflops = 0;  // float FMA, two operations each
+  double gbs = 0;     // bytes read + written by a triad, per ns
+};
+DevicePeaks measurePeaks(Device& device, ProgramCache& cache, int lanes);
+
+}  // namespace glintmark

@@ -1,0 +1,47 @@
+// OpenCL devices: choosing one, its facts, its context and queue.
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace glintmark {
+
+struct DeviceInfo {
+  int index = 0;  // over all platforms, in the order the loader lists them
+  std::string name, vendor, platform, platform_version, driver_version, opencl_c_version;
+  std::string type;  // "CPU", "GPU", "accelerator"
+  unsigned compute_units = 0;
+  unsigned max_clock_mhz = 0;
+  unsigned preferred_float_width = 1;
+  unsigned max_work_group_size = 1;
+  unsigned long long global_mem_bytes = 0, max_alloc_bytes = 0, local_mem_bytes = 0;
+  bool is_cpu = false;
+  bool host_unified_memory = false;
+  bool correctly_rounded_divide_sqrt = false;
+  int default_lanes = 1;  // W for wide kernels: 16, 8, 4 or 1
+};
+
+/// All devices of all platforms; empty if there is no OpenCL platform at all (never throws for it).
+std::vector<DeviceInfo> listDevices();
+
+/// An opened device with context and profiling in-order queue. OpenCL types stay behind
+/// host/ocl/opencl.h, so this header does not include them.
+class Device {
+ public:
+  /// `selector`: empty = first GPU, else first device; a number = index; else a case-insensitive
+  /// substring of the device or platform name. Throws DeviceError listing what there is.
+  explicit Device(const std::string& selector = "");
+  ~Device();
+  Device(Device&&) noexcept;
+  Device& operator=(Device&&) noexcept;
+
+  const DeviceInfo& info() const;
+
+  struct Impl;
+  Impl& impl() { return *impl_; }  // for host/ocl only
+
+ private:
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace glintmark

@@ -1,0 +1,33 @@
+// Reads scenes/*.toml and the meshes and images they name.
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "host/scene/scene.h"
+
+namespace glintmark {
+
+struct SceneRequest {
+  /// A name ("snow") looked up as <scene folder>/<name>.toml, or a path to a .toml file.
+  std::string scene;
+  /// `--set path.to.key=value` overrides, applied to the TOML before it is read, in order.
+  std::vector<std::string> overrides;
+  /// `--mesh FILE`: replaces the scene's mesh; empty for none.
+  std::filesystem::path mesh_file;
+  /// `--assets FOLDER`: searched for the file a scene lists under `mesh.asset`; empty for none.
+  std::filesystem::path asset_folder;
+};
+
+/// Loads a scene. Throws Error with one sentence (file and line where there is one) for a missing
+/// or malformed file, an unknown key (listing the known ones), a value out of range, a mesh without
+/// uvs, NaN vertices or indices out of range.
+Scene loadScene(const SceneRequest& request);
+
+/// Names of all scenes in the scene folder, in alphabetical order.
+std::vector<std::string> listScenes();
+
+/// Folder of the scene files: $GLINTMARK_SCENES, else next to the executable, else the source tree.
+std::filesystem::path sceneFolder();
+
+}  // namespace glintmark

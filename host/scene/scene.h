@@ -1,0 +1,74 @@
+// A scene in memory: one merged world-space mesh, materials, lights and named views.
+//
+// World space is right-handed with y up; lengths are in scene units.
+#pragma once
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "host/core/planes.h"
+#include "host/core/shared_types.h"
+
+namespace glintmark {
+
+/// Triangles with everything per vertex. All per-vertex arrays have the same length.
+struct TriangleMesh {
+  std::vector<glm::vec3> positions;
+  std::vector<glm::vec3> normals;   // unit
+  std::vector<glm::vec4> tangents;  // xyz: unit dP/du direction; w: +1, or -1 on mirrored uv charts
+  std::vector<glm::dvec2> uvs;      // |uv| up to 1e6 and beyond keeps its fraction
+  std::vector<glm::uvec3> triangles;              // counter-clockwise from the front
+  std::vector<std::uint32_t> triangle_materials;  // one per triangle: index into Scene::materials
+
+  std::size_t triangleCount() const { return triangles.size(); }
+};
+
+/// A pinhole view.
+struct View {
+  std::string name;
+  glm::dvec3 eye{0, 0, 1};
+  glm::dvec3 target{0, 0, 0};
+  glm::dvec3 up{0, 1, 0};
+  double fov_y_deg = 45;     // vertical, (0, 180)
+  double near_plane = 1e-3;  // world units along the view axis, > 0; there is no far plane
+};
+
+/// [ZK16] Sect. 4.5, ready for the device, with what selects the effects.
+struct Material {
+  std::string name;
+  GlintMaterial glint{};
+  bool has_glints = true;    // false: a smooth Beckmann lobe of roughness alpha_g
+  bool has_grooves = false;  // 1-D NDF, [ZK16] Eq. 6: alpha_l.x is not used
+  bool has_colour = false;   // coloured microdetails
+};
+
+/// An environment map already cut into cones is appended to `lights`; this remembers where from.
+struct EnvironmentInfo {
+  bool present = false;
+  std::string file;  // empty: procedural sky
+  int cone_count = 0;
+};
+
+struct PostEffects {
+  bool star = false;    // star-shaped glare around bright pixels
+  double exposure = 1;  // linear scale before tone mapping
+};
+
+struct Scene {
+  std::string name;
+  std::string description;
+  TriangleMesh mesh;
+  std::vector<Material> materials;
+  std::vector<ConeLight> lights;  // sun lights first, then the environment's cones
+  EnvironmentInfo environment;
+  std::vector<View> views;
+  PostEffects post;
+  bool cull_back_faces = false;    // false: two-sided, normals turn towards the eye
+  std::vector<std::string> notes;  // what loading changed or repaired, one sentence each
+
+  /// The view of that name; throws Error listing the known ones.
+  const View& view(const std::string& view_name) const;
+};
+
+}  // namespace glintmark

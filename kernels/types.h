@@ -1,0 +1,45 @@
+// Structs shared by the host (C++20) and the device (OpenCL C 1.2), and nothing else.
+//
+// Rules: four-byte scalars, float2 and float4 only; no bool, enum, size_t, pointer, float3 or
+// double. The host defines float2 and float4 in host/core/shared_types.h, which also asserts the
+// sizes below; probe.cl reports the device's sizes and a test compares the two.
+#ifndef GLINTMARK_TYPES_H
+#define GLINTMARK_TYPES_H
+
+#define GM_MAX_PALETTE 8u
+
+// A pixel list is padded with copies of its last pixel to a multiple of this, so that a kernel of
+// any lane count never reads past the end and needs no tail code.
+#define GM_LIST_PADDING 64u
+
+// One glint material, in the paper's user parameters made absolute. [ZK16] Sect. 4.5
+typedef struct GlintMaterial {
+  float2 alpha_g;        // global Beckmann roughness along u and v, (0, 1]
+  float2 alpha_l;        // roughness of one microdetail, absolute, (0, alpha_g]
+  float density;         // microdetails per unit uv area, > 0
+  float size_variation;  // standard deviation of the microdetail count factor, >= 0
+  float intensity;       // overall scale of the specular lobe, >= 0
+  uint palette_count;    // colours in palette; 0 = uniform colour wheel
+  float4 f0;             // rgb reflectance at normal incidence; w unused
+  float4 albedo;         // rgb diffuse albedo; w unused
+  float4 palette[GM_MAX_PALETTE];  // rgb albedo of a microdetail; w unused
+} GlintMaterial;
+
+// A light at infinity that fills a cone of directions evenly. [ZK16] Sect. 4.3, Fig. 8
+typedef struct ConeLight {
+  float4 direction;   // xyz: unit vector towards the light, world space; w: cone half-angle [rad]
+  float4 irradiance;  // rgb on a surface that faces the light's axis; w unused
+} ConeLight;
+
+// What one shading launch needs beside its pixels.
+typedef struct FrameParams {
+  float4 ray_origin;  // xyz: world-space direction through pixel centre (0, 0), not normalised
+  float4 ray_dx;      // xyz: what one pixel to the right adds to it
+  float4 ray_dy;      // xyz: what one pixel down adds to it
+  uint light_count;
+  uint list_offset;   // first entry of this launch's pixel list
+  uint list_count;    // entries to shade, padding not counted
+  uint plane_stride;  // entries between two planes
+} FrameParams;
+
+#endif
