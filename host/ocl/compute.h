@@ -39,8 +39,9 @@ class Buffer {
 };
 
 struct LaunchTimes {
-  double event_ns = 0;  // kernel START to END
-  double wall_ns = 0;   // enqueue to finish on the host
+  double event_ns = 0;         // kernel START to END
+  double wall_ns = 0;          // enqueue to finish on the host
+  bool first_enqueue = false;  // of this kernel and local size: wall_ns may hold compilation
 };
 
 using KernelArg = std::variant<Buffer, std::int32_t, std::uint32_t, float>;

@@ -15,6 +15,7 @@ struct DeviceInfo {
   unsigned preferred_float_width = 1;
   unsigned max_work_group_size = 1;
   unsigned long long global_mem_bytes = 0, max_alloc_bytes = 0, local_mem_bytes = 0;
+  unsigned long long cache_bytes = 0;  // of global memory, all cores together
   bool is_cpu = false;
   bool host_unified_memory = false;
   bool correctly_rounded_divide_sqrt = false;

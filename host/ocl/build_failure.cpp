@@ -1,0 +1,54 @@
+#include "host/ocl/build_failure.h"
+
+#include <fmt/format.h>
+#include <stdlib.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+
+#include "host/ocl/kernel_folder.h"
+
+namespace glintmark {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string firstErrorLine(const std::string& log) {
+  std::istringstream lines(log);
+  std::string first;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find("error") != std::string::npos) return line;
+    if (first.empty()) first = line;
+  }
+  return first.empty() ? "the driver gave no log" : first;
+}
+
+void writeText(const fs::path& path, const std::string& text) {
+  std::ofstream(path) << text;
+}
+
+// Empty if no folder could be made: the build error matters more than its dump.
+std::string dump(const FailedBuild& failed) {
+  std::error_code error;
+  std::string folder = (fs::temp_directory_path(error) / "glintmark-build-XXXXXX").string();
+  if (error || !mkdtemp(folder.data())) return {};
+  writeText(fs::path(folder) / "options.txt", failed.options + "\n");
+  writeText(fs::path(folder) / "build.log", failed.log);
+  for (const fs::path& file : kernelFiles(failed.kernel_folder))
+    fs::copy_file(file, fs::path(folder) / file.filename(), error);
+  return folder;
+}
+
+}  // namespace
+
+Error reportFailedBuild(const FailedBuild& failed) {
+  const std::string folder = dump(failed);
+  return Error(fmt::format("kernel file '{}' does not build on '{}': {} ({})", failed.file,
+                           failed.device, firstErrorLine(failed.log),
+                           folder.empty() ? "options, log and sources could not be saved"
+                                          : "options, log and sources are in " + folder));
+}
+
+}  // namespace glintmark

@@ -1,0 +1,119 @@
+#include "host/ocl/disk_cache.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <string_view>
+#include <system_error>
+
+#include "host/ocl/kernel_folder.h"
+
+namespace glintmark {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kMagic = "glintmark.program/1\n";
+
+void append(std::string& out, std::uint64_t value) {
+  char bytes[sizeof value];
+  std::memcpy(bytes, &value, sizeof value);
+  out.append(bytes, sizeof value);
+}
+
+// Takes pieces off the front of an entry; every take fails for good once one has failed.
+class EntryReader {
+ public:
+  explicit EntryReader(std::string_view entry) : rest_(entry) {}
+
+  std::string_view take(std::uint64_t size) {
+    if (size > rest_.size()) ok_ = false;
+    if (!ok_) return {};
+    const std::string_view piece = rest_.substr(0, size);
+    rest_.remove_prefix(size);
+    return piece;
+  }
+
+  std::uint64_t takeNumber() {
+    std::uint64_t value = 0;
+    const std::string_view piece = take(sizeof value);
+    if (ok_) std::memcpy(&value, piece.data(), sizeof value);
+    return value;
+  }
+
+  bool atEnd() const { return ok_ && rest_.empty(); }
+
+ private:
+  std::string_view rest_;
+  bool ok_ = true;
+};
+
+const char* nonEmptyEnv(const char* name) {
+  const char* value = std::getenv(name);
+  return value && *value ? value : nullptr;
+}
+
+}  // namespace
+
+DiskCache DiskCache::fromEnvironment() {
+  DiskCache cache;
+  if (const char* chosen = nonEmptyEnv("GLINTMARK_CACHE_DIR")) {
+    if (std::string_view(chosen) != "off") cache.folder_ = chosen;
+  } else if (const char* xdg = nonEmptyEnv("XDG_CACHE_HOME")) {
+    cache.folder_ = fs::path(xdg) / "glintmark";
+  } else if (const char* home = nonEmptyEnv("HOME")) {
+    cache.folder_ = fs::path(home) / ".cache" / "glintmark";
+  }
+  return cache;
+}
+
+fs::path DiskCache::entryPath(const std::string& key) const {
+  return folder_ / fmt::format("{:016x}.bin", fnv1a(key));
+}
+
+std::optional<std::string> DiskCache::load(const std::string& key) const {
+  if (folder_.empty()) return std::nullopt;
+  std::ifstream file(entryPath(key), std::ios::binary);
+  const std::string entry{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+
+  EntryReader reader(entry);
+  if (reader.take(kMagic.size()) != kMagic) return std::nullopt;
+  if (reader.take(reader.takeNumber()) != key) return std::nullopt;
+  const std::uint64_t size = reader.takeNumber();
+  const std::uint64_t hash = reader.takeNumber();
+  const std::string_view binary = reader.take(size);
+  if (!reader.atEnd() || binary.empty() || fnv1a(binary) != hash) return std::nullopt;
+  return std::string(binary);
+}
+
+void DiskCache::store(const std::string& key, const std::string& binary) const {
+  if (folder_.empty() || binary.empty()) return;
+  std::string entry(kMagic);
+  append(entry, key.size());
+  entry += key;
+  append(entry, binary.size());
+  append(entry, fnv1a(binary));
+  entry += binary;
+
+  std::error_code error;
+  fs::create_directories(folder_, error);
+  const fs::path path = entryPath(key);
+  const fs::path temporary = path.string() + fmt::format(".{}.tmp", ::getpid());
+  std::ofstream file(temporary, std::ios::binary);
+  file.write(entry.data(), static_cast<std::streamsize>(entry.size()));
+  file.close();
+  if (file) fs::rename(temporary, path, error);
+  if (!file || error) fs::remove(temporary, error);
+}
+
+void DiskCache::remove(const std::string& key) const {
+  std::error_code error;
+  if (!folder_.empty()) fs::remove(entryPath(key), error);
+}
+
+}  // namespace glintmark

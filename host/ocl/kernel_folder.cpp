@@ -1,0 +1,67 @@
+#include "host/ocl/kernel_folder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+#include "host/core/error.h"
+#include "host/ocl/compute.h"
+
+namespace glintmark {
+namespace fs = std::filesystem;
+
+std::uint64_t fnv1a(std::string_view bytes, std::uint64_t hash) {
+  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  return hash;
+}
+
+std::string readFile(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  if (!file) throw Error(fmt::format("cannot read '{}'", path.string()));
+  return text;
+}
+
+std::vector<fs::path> kernelFiles(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    const fs::path extension = it->path().extension();
+    if (extension == ".cl" || extension == ".clh" || extension == ".h") files.push_back(it->path());
+  }
+  if (error)
+    throw Error(
+        fmt::format("cannot list the kernel folder '{}': {}", folder.string(), error.message()));
+  std::ranges::sort(files);
+  return files;
+}
+
+std::uint64_t hashKernels(const fs::path& folder) {
+  std::uint64_t hash = fnv1a("");
+  for (const fs::path& file : kernelFiles(folder)) {
+    const std::string text = readFile(file);
+    hash = fnv1a(fmt::format("{}:{}:", file.filename().string(), text.size()), hash);
+    hash = fnv1a(text, hash);
+  }
+  return hash;
+}
+
+std::string kernelFolder() {
+  if (const char* chosen = std::getenv("GLINTMARK_KERNELS"); chosen && *chosen) {
+    if (!fs::is_directory(chosen))
+      throw Error(fmt::format("GLINTMARK_KERNELS is '{}', which is not a folder", chosen));
+    return chosen;
+  }
+  std::error_code error;
+  const fs::path bin = fs::read_symlink("/proc/self/exe", error).parent_path();
+  for (const fs::path& folder : {bin.parent_path() / "share" / "glintmark" / "kernels",
+                                 bin / "kernels", fs::path(GLINTMARK_KERNEL_SOURCE_DIR)})
+    if (fs::is_directory(folder, error)) return folder.string();
+  throw Error("the kernel folder was not found; set GLINTMARK_KERNELS to the folder of shade.cl");
+}
+
+}  // namespace glintmark

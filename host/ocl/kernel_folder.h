@@ -1,0 +1,23 @@
+// Where the kernel sources are, and their fingerprint.
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace glintmark {
+
+/// 64-bit FNV-1a of `bytes`, carried on from `hash`.
+std::uint64_t fnv1a(std::string_view bytes, std::uint64_t hash = 0xcbf29ce484222325u);
+
+/// Whole content of a file. Throws Error naming it if it cannot be read.
+std::string readFile(const std::filesystem::path& path);
+
+/// The .cl, .clh and .h files of `folder`, sorted by name. Throws Error if it cannot be listed.
+std::vector<std::filesystem::path> kernelFiles(const std::filesystem::path& folder);
+
+/// Hash of the names and contents of all kernelFiles(folder).
+std::uint64_t hashKernels(const std::filesystem::path& folder);
+
+}  // namespace glintmark

@@ -1,0 +1,66 @@
+// The only header of the project that includes OpenCL, and what hides behind the public interfaces.
+#pragma once
+#define CL_HPP_ENABLE_EXCEPTIONS
+#define CL_HPP_TARGET_OPENCL_VERSION 120
+#define CL_HPP_MINIMUM_OPENCL_VERSION 120
+#include <CL/opencl.hpp>
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+
+#include "host/core/error.h"
+#include "host/ocl/compute.h"
+#include "host/ocl/device.h"
+
+namespace glintmark {
+
+/// Name of an OpenCL error code, e.g. "CL_OUT_OF_RESOURCES" for -5; "OpenCL error -N" if unknown.
+std::string openClErrorName(cl_int code);
+
+/// The project's error for a failed OpenCL call: "<doing> failed with <name> in <call>".
+Error openClError(const std::string& doing, const cl::Error& error);
+
+struct Device::Impl {
+  DeviceInfo info;
+  cl::Device device;
+  cl::Context context;
+  cl::CommandQueue queue;  // in order, profiling
+};
+
+struct Buffer::Impl {
+  cl::Buffer buffer;
+  cl::CommandQueue queue;
+  std::size_t bytes = 0;
+  std::string what;
+};
+
+struct Kernel::Impl {
+  cl::Kernel kernel;
+  cl::CommandQueue queue;
+  std::string name;
+  std::set<std::size_t> launched;  // local sizes
+  double first_enqueue_ns = 0;
+};
+
+/// A program for one device; shared by all Program handles that the cache gave out.
+struct BuiltProgram {
+  cl::Program program;
+  cl::Device device;
+  cl::CommandQueue queue;
+  std::string file;
+  std::string options;
+  std::map<std::string, std::shared_ptr<Kernel::Impl>> kernels;
+};
+
+struct Program::Impl {
+  std::shared_ptr<BuiltProgram> built;
+  double build_ns = 0;
+  bool from_disk_cache = false;
+};
+
+/// Compiled binary of a built program for its device; empty if the driver gives none.
+std::string programBinary(const cl::Program& program);
+
+}  // namespace glintmark

@@ -1,0 +1,51 @@
+#include <fmt/format.h>
+
+#include "host/ocl/opencl.h"
+
+namespace glintmark {
+namespace {
+
+const Program::Impl& nonEmpty(const std::shared_ptr<Program::Impl>& impl) {
+  if (!impl) throw Error("an empty program was used; it must come from a program cache");
+  return *impl;
+}
+
+}  // namespace
+
+Kernel Program::kernel(const std::string& name) const {
+  BuiltProgram& built = *nonEmpty(impl_).built;
+  std::shared_ptr<Kernel::Impl>& kernel = built.kernels[name];
+  if (kernel) return Kernel(kernel);
+  try {
+    auto made = std::make_shared<Kernel::Impl>();
+    made->kernel = cl::Kernel(built.program, name.c_str());
+    made->queue = built.queue;
+    made->name = name;
+    kernel = std::move(made);
+  } catch (const cl::Error& error) {
+    built.kernels.erase(name);
+    if (error.err() == CL_INVALID_KERNEL_NAME)
+      throw Error(fmt::format("kernel file '{}' has no kernel '{}'; it has {}", built.file, name,
+                              built.program.getInfo<CL_PROGRAM_KERNEL_NAMES>()));
+    throw openClError(fmt::format("making kernel '{}' of '{}'", name, built.file), error);
+  }
+  return Kernel(kernel);
+}
+
+double Program::buildNs() const {
+  return nonEmpty(impl_).build_ns;
+}
+
+bool Program::fromDiskCache() const {
+  return nonEmpty(impl_).from_disk_cache;
+}
+
+const std::string& Program::options() const {
+  return nonEmpty(impl_).built->options;
+}
+
+std::string Program::binary() const {
+  return programBinary(nonEmpty(impl_).built->program);
+}
+
+}  // namespace glintmark

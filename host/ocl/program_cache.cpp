@@ -1,0 +1,124 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <exception>
+#include <filesystem>
+#include <map>
+#include <optional>
+
+#include "host/ocl/build_failure.h"
+#include "host/ocl/disk_cache.h"
+#include "host/ocl/kernel_folder.h"
+#include "host/ocl/opencl.h"
+
+namespace glintmark {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Hashing the sources into the text makes drivers with a cache of their own, which may not look
+// into included files, see every change; #line makes their messages name the file.
+std::string sourceText(const fs::path& folder, const std::string& file, std::uint64_t hash) {
+  return fmt::format("// sources {:016x}\n#line 1 \"{}\"\n{}", hash, file, readFile(folder / file));
+}
+
+std::optional<cl::Program> buildFromBinary(const Device::Impl& device, const std::string& binary,
+                                           const std::string& options) {
+  try {
+    const cl::Program::Binaries binaries = {{binary.begin(), binary.end()}};
+    cl::Program program(device.context, {device.device}, binaries);
+    program.build({device.device}, options.c_str());
+    return program;
+  } catch (const cl::Error&) {
+    return std::nullopt;  // stale or damaged: the caller builds from source
+  }
+}
+
+}  // namespace
+
+std::string programBinary(const cl::Program& program) {
+  try {
+    const auto binaries = program.getInfo<CL_PROGRAM_BINARIES>();
+    return binaries.empty() ? std::string() : std::string(binaries[0].begin(), binaries[0].end());
+  } catch (const cl::Error&) {
+    return {};
+  }
+}
+
+struct ProgramCache::Impl {
+  explicit Impl(Device& opened) : info(opened.info()) {
+    device.device = opened.impl().device;
+    device.context = opened.impl().context;
+    device.queue = opened.impl().queue;
+  }
+
+  cl::Program buildFromSource(const std::string& file, const std::string& options,
+                              std::uint64_t hash) {
+    try {
+      cl::Program program(device.context, sourceText(folder, file, hash));
+      program.build({device.device}, options.c_str());
+      return program;
+    } catch (const cl::BuildError& error) {
+      const auto log = error.getBuildLog();
+      throw reportFailedBuild(
+          {file, folder, options, log.empty() ? std::string() : log[0].second, info.name});
+    } catch (const cl::Error& error) {
+      throw openClError(fmt::format("building kernel file '{}'", file), error);
+    }
+  }
+
+  Program build(const std::string& file, const std::string& options);
+
+  DeviceInfo info;
+  Device::Impl device;
+  std::string folder = kernelFolder();
+  DiskCache disk = DiskCache::fromEnvironment();
+  std::map<std::string, std::shared_ptr<BuiltProgram>> memory;  // by disk key
+};
+
+Program ProgramCache::Impl::build(const std::string& file, const std::string& user_options) {
+  const auto start = std::chrono::steady_clock::now();
+  if (!fs::is_regular_file(fs::path(folder) / file))
+    throw Error(fmt::format("kernel file '{}' is not in the kernel folder '{}'", file, folder));
+
+  std::string options = user_options + " -cl-std=CL1.2";
+  if (info.correctly_rounded_divide_sqrt) options += " -cl-fp32-correctly-rounded-divide-sqrt";
+  const std::uint64_t hash = hashKernels(folder);
+  const std::string key =
+      fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{:016x}\n", file, options, info.name, info.platform,
+                  info.platform_version, info.driver_version, hash);
+  auto program = std::make_shared<Program::Impl>();
+  if (const auto it = memory.find(key); it != memory.end()) {
+    program->built = it->second;
+    return Program(program);
+  }
+
+  options += " -I " + folder;
+  std::optional<cl::Program> built;
+  if (const auto binary = disk.load(key)) {
+    built = buildFromBinary(device, *binary, options);
+    program->from_disk_cache = built.has_value();
+  }
+  if (!built) {
+    built = buildFromSource(file, options, hash);
+    disk.store(key, programBinary(*built));
+  }
+  program->built = std::make_shared<BuiltProgram>(
+      BuiltProgram{*built, device.device, device.queue, file, options, {}});
+  memory[key] = program->built;
+  program->build_ns =
+      std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count();
+  return Program(program);
+}
+
+ProgramCache::ProgramCache(Device& device) : impl_(std::make_shared<Impl>(device)) {}
+
+Program ProgramCache::get(const std::string& file, const KernelConfig& config) {
+  return impl_->build(file, buildOptions(config));
+}
+
+Program ProgramCache::getWithOptions(const std::string& file, const std::string& options) {
+  return impl_->build(file, options);
+}
+
+}  // namespace glintmark
