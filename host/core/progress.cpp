@@ -1,0 +1,37 @@
+#include "host/core/progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+namespace glintmark {
+namespace {
+
+constexpr std::size_t kMaxLineLength = 79;  // a wrapped line could not be overwritten
+
+}  // namespace
+
+Progress::Progress(bool quiet) : active_(!quiet && isatty(STDERR_FILENO) == 1) {}
+
+Progress::~Progress() {
+  clear();
+}
+
+void Progress::show(int done, int total, const std::string& what) {
+  if (!active_) return;
+  std::string line = total > 0 ? fmt::format("[{}/{}] {}", done, total, what) : what;
+  if (line.size() > kMaxLineLength) line.resize(kMaxLineLength);
+  std::fprintf(stderr, "\r\033[K%s", line.c_str());
+  std::fflush(stderr);
+  shown_ = true;
+}
+
+void Progress::clear() {
+  if (!shown_) return;
+  std::fputs("\r\033[K", stderr);
+  std::fflush(stderr);
+  shown_ = false;
+}
+
+}  // namespace glintmark

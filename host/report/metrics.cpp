@@ -1,0 +1,80 @@
+#include "host/report/metrics.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "host/core/error.h"
+
+namespace glintmark {
+namespace {
+
+// Calls visit(image pixel, reference pixel) for every pixel, cut to the colour channels; checks
+// sizes and values. Returns the number of colour channels.
+template <typename Visit>
+int visitPixels(const Image& image, const Image& reference, Visit visit) {
+  if (image.width != reference.width || image.height != reference.height ||
+      image.channels != reference.channels || image.pixels.empty()) {
+    throw Error(fmt::format("cannot compare an image of {}x{}x{} with a reference of {}x{}x{}",
+                            image.width, image.height, image.channels, reference.width,
+                            reference.height, reference.channels));
+  }
+  const int colours = std::min(3, image.channels);
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const auto a = image.at(x, y).first(colours), r = reference.at(x, y).first(colours);
+      for (int c = 0; c < colours; ++c) {
+        if (!std::isfinite(a[c]) || !std::isfinite(r[c])) {
+          throw Error(fmt::format("cannot compare images: pixel ({}, {}) is not finite", x, y));
+        }
+      }
+      visit(a, r);
+    }
+  }
+  return colours;
+}
+
+double pixelCount(const Image& image) {
+  return static_cast<double>(image.width) * image.height;
+}
+
+}  // namespace
+
+double relativeBias(const Image& image, const Image& reference) {
+  double sum = 0, reference_sum = 0;
+  visitPixels(image, reference, [&](auto a, auto r) {
+    for (const float value : a) sum += value;
+    for (const float value : r) reference_sum += value;
+  });
+  if (sum == reference_sum) return 0;
+  if (reference_sum == 0) return std::copysign(std::numeric_limits<double>::infinity(), sum);
+  return sum / reference_sum - 1;
+}
+
+double relMse(const Image& image, const Image& reference) {
+  double sum = 0;
+  const int colours = visitPixels(image, reference, [&](auto a, auto r) {
+    for (std::size_t c = 0; c < a.size(); ++c) {
+      const double difference = static_cast<double>(a[c]) - r[c];
+      sum += difference * difference / (static_cast<double>(r[c]) * r[c] + kRelMseEpsilon);
+    }
+  });
+  return sum / (pixelCount(image) * colours);
+}
+
+double colourError(const Image& image, const Image& reference) {
+  double sum = 0;
+  const int colours = visitPixels(image, reference, [&](auto a, auto r) {
+    double squares = 0;
+    for (std::size_t c = 0; c < a.size(); ++c) {
+      const double difference = std::clamp<double>(a[c], 0, 1) - std::clamp<double>(r[c], 0, 1);
+      squares += difference * difference;
+    }
+    sum += std::sqrt(squares);
+  });
+  return sum / (pixelCount(image) * std::sqrt(static_cast<double>(colours)));
+}
+
+}  // namespace glintmark

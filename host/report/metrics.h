@@ -1,0 +1,24 @@
+// Error metrics, defined once for the whole project.
+#pragma once
+#include "host/core/image.h"
+
+namespace glintmark {
+
+/// All metrics compare the first min(3, channels) channels of two images of equal size, ignore
+/// nothing, and throw Error if sizes or channels differ or a value is not finite.
+
+/// Relative bias of the mean: mean(image) / mean(reference) - 1, over all values. 0 for two black
+/// images, infinite if only the reference is black.
+double relativeBias(const Image& image, const Image& reference);
+
+/// Relative mean squared error: mean over all values of (a - r)^2 / (r^2 + kRelMseEpsilon).
+double relMse(const Image& image, const Image& reference);
+inline constexpr double kRelMseEpsilon = 1e-2;  // keeps black pixels from dominating
+
+/// Normalised Euclidean colour error per pixel of [TAN05] Figs. 4, 7 and 8, which give no formula.
+/// We take display colours clamped to [0, 1], their Euclidean distance over that of black and white
+/// (square root of the channel count), and its mean over the pixels: 0 alike, 1 black against
+/// white. The images hold display values already.
+double colourError(const Image& image, const Image& reference);
+
+}  // namespace glintmark

@@ -1,0 +1,101 @@
+#include "host/report/record_log.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "host/core/error.h"
+#include "host/report/atomic_file.h"
+#include "host/report/records.h"
+
+namespace glintmark {
+namespace {
+
+void requireSameSetup(const RunInfo& old_run, const RunInfo& run, const std::string& path) {
+  const auto require = [&](const char* what, const std::string& before, const std::string& now) {
+    if (before == now) return;
+    throw Error(
+        fmt::format("cannot resume {}: it was measured with {} '{}', not '{}'; run without "
+                    "--resume to start over",
+                    path, what, before, now));
+  };
+  require("program version", old_run.git, run.git);
+  require("device", old_run.device, run.device);
+  require("width", std::to_string(old_run.width), std::to_string(run.width));
+}
+
+}  // namespace
+
+RecordLog::RecordLog(std::filesystem::path path, bool keep) : path_(std::move(path)) {
+  const int start = keep ? 0 : O_TRUNC;
+  descriptor_ = open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | start, 0644);
+  if (descriptor_ < 0) {
+    throw Error(fmt::format("cannot write {}: {}", path_.string(), std::strerror(errno)));
+  }
+}
+
+RecordLog::RecordLog(RecordLog&& other) noexcept
+    : path_(std::move(other.path_)),
+      descriptor_(std::exchange(other.descriptor_, -1)),
+      records_(std::move(other.records_)) {}
+
+RecordLog::~RecordLog() {
+  if (descriptor_ >= 0) close(descriptor_);
+}
+
+RecordLog RecordLog::create(const std::filesystem::path& path, const RunInfo& run) {
+  RecordLog log(path, false);
+  writeAll(log.descriptor_, headerLine(run) + "\n", path);
+  return log;
+}
+
+RecordLog RecordLog::resume(const std::filesystem::path& path, const RunInfo& run) {
+  if (!std::filesystem::exists(path)) return create(path, run);
+  const std::string text = readTextFile(path);
+  const std::size_t whole_lines = text.rfind('\n') + 1;  // npos + 1 is 0
+  if (whole_lines == 0) return create(path, run);
+
+  RecordLog log(path, true);
+  std::size_t begin = 0;
+  for (int line_number = 1; begin < whole_lines; ++line_number) {
+    const std::size_t end = text.find('\n', begin);
+    const std::string line = text.substr(begin, end - begin);
+    const std::string source = fmt::format("{} line {}", path.string(), line_number);
+    if (line_number == 1) {
+      requireSameSetup(parseHeaderLine(line, source), run, path.string());
+    } else {
+      log.records_.push_back(parseRecordLine(line, source));
+    }
+    begin = end + 1;
+  }
+  if (ftruncate(log.descriptor_, static_cast<off_t>(whole_lines)) != 0) {
+    throw Error(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
+  }
+  return log;
+}
+
+void RecordLog::append(std::span<const Record> records) {
+  std::string lines;
+  for (const Record& record : records) lines += recordLine(record) + "\n";
+  writeAll(descriptor_, lines, path_);
+  if (fsync(descriptor_) != 0 && errno != EINVAL) {
+    throw Error(fmt::format("cannot write {}: {}", path_.string(), std::strerror(errno)));
+  }
+  records_.insert(records_.end(), records.begin(), records.end());
+}
+
+const Record* RecordLog::find(const Record& key) const {
+  // The last one counts: it may have been measured again.
+  const auto found = std::find_if(records_.rbegin(), records_.rend(), [&](const Record& record) {
+    return record.table == key.table && record.case_ == key.case_ && record.metric == key.metric &&
+           record.config == key.config;
+  });
+  return found == records_.rend() ? nullptr : &*found;
+}
+
+}  // namespace glintmark
