@@ -17,24 +17,39 @@ typedef float16 probe_float;
 #error WIDTH must be 1, 4, 8 or 16
 #endif
 
-// Byte offset of a member, from a pointer that is never read through.
-#define OFFSET_OF(type, member) ((uint)(size_t)(&((__private type*)0)->member))
+#define OFFSET_OF(object, member) ((uint)((char*)&(object).member - (char*)&(object)))
 
-// Sizes in the order of kSharedTypeSizes, then offsets in the order of kSharedTypeOffsets, both of
-// host/core/shared_types.h. One work-item.
+// Sizes in the order of kSharedTypeSizes, host/core/shared_types.h. One work-item.
 __kernel void probeTypeSizes(__global uint* out) {
   out[0] = (uint)sizeof(GlintMaterial);
   out[1] = (uint)sizeof(ConeLight);
   out[2] = (uint)sizeof(FrameParams);
 }
 
-// 12 independent chains hide the latency of 4 cycles on two FMA ports and still leave registers.
-// Returns 2 * 12 * WIDTH operations per round and work-item. With a in (0, 1) every chain converges
-// to b / (1 - a): no infinities, no denormals.
-__kernel void probeFma(__global float* out, uint rounds, float a, float b) {
+// Byte offsets of members that follow a change of alignment. One work-item.
+__kernel void probeTypeOffsets(__global uint* out) {
+  GlintMaterial material;
+  ConeLight light;
+  FrameParams params;
+  out[0] = OFFSET_OF(material, alpha_l);
+  out[1] = OFFSET_OF(material, density);
+  out[2] = OFFSET_OF(material, palette_count);
+  out[3] = OFFSET_OF(material, f0);
+  out[4] = OFFSET_OF(material, palette);
+  out[5] = OFFSET_OF(light, irradiance);
+  out[6] = OFFSET_OF(params, light_count);
+  out[7] = OFFSET_OF(params, plane_stride);
+}
+
+// Twelve chains: two FMA ports of four cycles' latency need eight, and with the two constants
+// twelve still leave registers to spare. 2 * 12 * WIDTH operations per round and work-item.
+// With a = b = 0.5 every chain ends at exactly 1 after some 40 rounds, so that the answer, twelve,
+// can be checked; no chain meets infinities or denormals. The seeds come from memory so that no
+// compiler knows them.
+__kernel void probeFma(__global probe_float* inout, uint rounds, float a, float b) {
   const uint id = (uint)get_global_id(0);
   const probe_float va = (probe_float)(a), vb = (probe_float)(b);
-  const probe_float seed = (probe_float)((float)id);
+  const probe_float seed = inout[id];
   probe_float x0 = seed, x1 = seed + 1.0f, x2 = seed + 2.0f, x3 = seed + 3.0f;
   probe_float x4 = seed + 4.0f, x5 = seed + 5.0f, x6 = seed + 6.0f, x7 = seed + 7.0f;
   probe_float x8 = seed + 8.0f, x9 = seed + 9.0f, x10 = seed + 10.0f, x11 = seed + 11.0f;
@@ -52,9 +67,12 @@ __kernel void probeFma(__global float* out, uint rounds, float a, float b) {
     x10 = fma(x10, va, vb);
     x11 = fma(x11, va, vb);
   }
-  const probe_float sum =
-      ((x0 + x1) + (x2 + x3)) + ((x4 + x5) + (x6 + x7)) + ((x8 + x9) + (x10 + x11));
-  ((__global probe_float*)out)[id] = sum;
+  inout[id] = ((x0 + x1) + (x2 + x3)) + ((x4 + x5) + (x6 + x7)) + ((x8 + x9) + (x10 + x11));
+}
+
+__kernel void probeFill(__global probe_float* out, float value, uint count) {
+  const uint id = (uint)get_global_id(0);
+  if (id < count) out[id] = (probe_float)(value);
 }
 
 // a = b + s * c over `count` vectors of WIDTH floats: 12 * WIDTH bytes each.

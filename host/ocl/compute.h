@@ -41,7 +41,7 @@ class Buffer {
 struct LaunchTimes {
   double event_ns = 0;         // kernel START to END
   double wall_ns = 0;          // enqueue to finish on the host
-  bool first_enqueue = false;  // of this kernel and local size: wall_ns may hold compilation
+  bool first_enqueue = false;  // the first of its kind: wall_ns may hold compilation
 };
 
 using KernelArg = std::variant<Buffer, std::int32_t, std::uint32_t, float>;
@@ -50,8 +50,9 @@ using KernelArg = std::variant<Buffer, std::int32_t, std::uint32_t, float>;
 class Kernel {
  public:
   /// Sets all arguments, enqueues a 1-D range rounded up to `local_size` and waits. `global_size` 0
-  /// does nothing. The first launch of a kernel and local size compiles on PoCL: its time is
-  /// reported apart by firstEnqueueNs(). Throws Error with the kernel's name and OpenCL error.
+  /// does nothing. PoCL compiles at the first launch of a kernel for each local size, once below
+  /// and once from 2^16 work-items: these launches are marked and summed by firstEnqueueNs().
+  /// Throws Error with the kernel's name and OpenCL error.
   LaunchTimes launch(std::span<const KernelArg> args, std::size_t global_size,
                      std::size_t local_size);
   double firstEnqueueNs() const;  // sum of wall times of first launches
@@ -86,8 +87,8 @@ class Program {
 /// ($GLINTMARK_CACHE_DIR, else $XDG_CACHE_HOME/glintmark, else ~/.cache/glintmark; "off" turns the
 /// disk cache off). The disk key covers every file of the kernel folder, the options, and the
 /// device, platform and driver; corrupt or stale entries are rebuilt silently, never fatal.
-/// A build failure throws Error naming the file and the first error, and leaves preprocessed
-/// inputs, options and full log in a folder that the message names.
+/// A build failure throws Error naming the file and the first error, and leaves a copy
+/// of the sources, the options and the full log in a folder that the message names.
 class ProgramCache {
  public:
   explicit ProgramCache(Device& device);
@@ -109,6 +110,9 @@ struct DevicePeaks {
   double gflops = 0;  // float FMA, two operations each
   double gbs = 0;     // bytes read + written by a triad, per ns
 };
+/// Takes the fastest of several launches, 0.3 s after the first time, and checks what they
+/// computed; `lanes` is the vector width to use (DeviceInfo::default_lanes for the device's own
+/// peak). Throws Error if the device computes a wrong answer.
 DevicePeaks measurePeaks(Device& device, ProgramCache& cache, int lanes);
 
 }  // namespace glintmark

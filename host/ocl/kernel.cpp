@@ -13,6 +13,10 @@ double nanosecondsSince(Clock::time_point start) {
   return std::chrono::duration<double, std::nano>(Clock::now() - start).count();
 }
 
+// PoCL compiles a kernel at its first enqueue for each local size, once more for grids of 2^16
+// work-items and more (it uses 16-bit indices below).
+constexpr std::size_t kSmallGridItems = std::size_t{1} << 16;
+
 void setArgs(Kernel::Impl& impl, std::span<const KernelArg> args) {
   const auto wanted = impl.kernel.getInfo<CL_KERNEL_NUM_ARGS>();
   if (args.size() != wanted)
@@ -63,7 +67,8 @@ LaunchTimes Kernel::launch(std::span<const KernelArg> args, std::size_t global_s
                                   groups * local_size, local_size),
                       error);
   }
-  times.first_enqueue = impl_->launched.insert(local_size).second;
+  times.first_enqueue =
+      impl_->launched.insert({local_size, groups * local_size < kSmallGridItems}).second;
   if (times.first_enqueue) impl_->first_enqueue_ns += times.wall_ns;
   return times;
 }

@@ -1,6 +1,7 @@
 #include "host/ocl/kernel_folder.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -48,6 +49,26 @@ std::uint64_t hashKernels(const fs::path& folder) {
     hash = fnv1a(text, hash);
   }
   return hash;
+}
+
+IncludePath::IncludePath(const std::string& folder) : folder_(folder) {
+  if (folder.find_first_of(" \t") == std::string::npos) return;
+  std::error_code error;
+  const fs::path link =
+      fs::temp_directory_path(error) / fmt::format("glintmark-kernels-{}", ::getpid());
+  fs::remove(link, error);
+  fs::create_directory_symlink(fs::absolute(folder), link, error);
+  if (error)
+    throw Error(
+        fmt::format("the kernel folder '{}' has a blank in its path and no link to it could "
+                    "be made: {}",
+                    folder, error.message()));
+  link_ = link.string();
+}
+
+IncludePath::~IncludePath() {
+  std::error_code error;
+  if (!link_.empty()) fs::remove(link_, error);
 }
 
 std::string kernelFolder() {

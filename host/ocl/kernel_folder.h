@@ -20,4 +20,20 @@ std::vector<std::filesystem::path> kernelFiles(const std::filesystem::path& fold
 /// Hash of the names and contents of all kernelFiles(folder).
 std::uint64_t hashKernels(const std::filesystem::path& folder);
 
+/// A path of `folder` that can stand in build options, which are split at blanks: the folder
+/// itself, or a link in the system's temporary folder that lives as long as this object.
+class IncludePath {
+ public:
+  explicit IncludePath(const std::string& folder);
+  ~IncludePath();
+  IncludePath(const IncludePath&) = delete;
+  IncludePath& operator=(const IncludePath&) = delete;
+
+  const std::string& path() const { return link_.empty() ? folder_ : link_; }
+
+ private:
+  std::string folder_;
+  std::string link_;
+};
+
 }  // namespace glintmark

@@ -9,6 +9,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "host/core/error.h"
 #include "host/ocl/compute.h"
@@ -40,7 +41,7 @@ struct Kernel::Impl {
   cl::Kernel kernel;
   cl::CommandQueue queue;
   std::string name;
-  std::set<std::size_t> launched;  // local sizes
+  std::set<std::pair<std::size_t, bool>> launched;  // local size, small grid
   double first_enqueue_ns = 0;
 };
 

@@ -93,7 +93,8 @@ Program ProgramCache::Impl::build(const std::string& file, const std::string& us
     return Program(program);
   }
 
-  options += " -I " + folder;
+  const IncludePath include(folder);
+  options += " -I " + include.path();
   std::optional<cl::Program> built;
   if (const auto binary = disk.load(key)) {
     built = buildFromBinary(device, *binary, options);
@@ -101,13 +102,14 @@ Program ProgramCache::Impl::build(const std::string& file, const std::string& us
   }
   if (!built) {
     built = buildFromSource(file, options, hash);
-    disk.store(key, programBinary(*built));
   }
   program->built = std::make_shared<BuiltProgram>(
       BuiltProgram{*built, device.device, device.queue, file, options, {}});
   memory[key] = program->built;
   program->build_ns =
       std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count();
+  // After the clock has stopped: asking PoCL for a binary compiles every kernel once more.
+  if (!program->from_disk_cache) disk.store(key, programBinary(*built));
   return Program(program);
 }
 

@@ -1,17 +1,18 @@
 #include <gtest/gtest.h>
 #include "host/ocl/compute.h"
+#include "host/ocl/static_counts.h"
 #include "host/core/shared_types.h"
+#include <chrono>
 using namespace glintmark;
-TEST(Device, Basic) {
+TEST(Device, Counts) {
   Device d;
   ProgramCache cache(d);
-  KernelConfig c; c.width=16;
-  Program p = cache.get("probe.cl", c);
-  printf("%s %d %f ms %s\n", p.options().c_str(), p.fromDiskCache(), p.buildNs()*1e-6, d.info().name.c_str());
-  Buffer b(d, 64, "sizes");
-  KernelArg a[] = {b};
-  auto t = p.kernel("probeTypeSizes").launch(a, 1, 1);
-  uint32_t s[3]; b.read(s, 12);
-  for (int i=0;i<3;i++) EXPECT_EQ(s[i], kSharedTypeSizes[i]);
-  printf("%f %f %zu\n", t.event_ns, t.wall_ns, p.binary().size());
+  for (const char* o : {"-D WIDTH=16","-D WIDTH=1"}) {
+  Program p = cache.getWithOptions("probe.cl", o);
+  for (const char* k : {"probeFma","probeTriad"}) {
+  auto t0=std::chrono::steady_clock::now();
+  auto c = staticCounts(p,k);
+  printf("%s %s %d %f s\n", o, k, c.has_value(),std::chrono::duration<double>(std::chrono::steady_clock::now()-t0).count());
+  if(c){ printf("%zu %zu %zu\n", c->kernel_instructions,c->cell_loop_instructions,c->vector_512); for(auto&l:c->loops) printf("   %zu %zu %zu %d %d\n", l.instructions,l.vector_512,l.calls,l.depth,(int)l.longest_inner);}
+  }}
 }

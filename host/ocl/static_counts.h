@@ -1,0 +1,30 @@
+// Static instruction counts of a compiled kernel, where the device gives its machine code.
+#pragma once
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/ocl/compute.h"
+#include "host/ocl/machine_code.h"
+
+namespace glintmark {
+
+struct StaticCounts {
+  std::size_t kernel_instructions = 0;
+  std::size_t cell_loop_instructions = 0;  // longest loop without long loops inside; 0 if none
+  std::size_t vector_512 = 0;              // in the whole kernel
+  std::vector<LoopCounts> loops;           // by the address of their heads
+};
+
+/// Counts of `kernel_name`, work-item loop included, padding excluded. The code is PoCL's version
+/// for any local size, taken from the program's binary, so that the counts do not depend on what
+/// was launched. Nothing if the device is not PoCL on x86-64 or objdump is not installed.
+std::optional<StaticCounts> staticCounts(const Program& program, const std::string& kernel_name);
+
+/// Counts of one function in the output of `objdump -d --no-show-raw-insn`; nothing if it is not
+/// in there.
+std::optional<StaticCounts> countInstructions(const std::string& disassembly,
+                                              const std::string& function);
+
+}  // namespace glintmark
