@@ -1,9 +1,11 @@
 // Reads scenes/*.toml and the meshes and images they name.
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "host/core/image.h"
 #include "host/scene/scene.h"
 
 namespace glintmark {
@@ -17,6 +19,9 @@ struct SceneRequest {
   std::filesystem::path mesh_file;
   /// `--assets FOLDER`: searched for the file a scene lists under `mesh.asset`; empty for none.
   std::filesystem::path asset_folder;
+  /// Reads the image that `environment.image` names (at least three channels, linear rgb). A scene
+  /// that names one cannot be loaded without it.
+  std::function<Image(const std::filesystem::path&)> image_loader{};
 };
 
 /// Loads a scene. Throws Error with one sentence (file and line where there is one) for a missing

@@ -4,6 +4,7 @@
 #pragma once
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,15 +25,30 @@ struct TriangleMesh {
   std::size_t triangleCount() const { return triangles.size(); }
 };
 
+/// An eye on a sphere around a point of a surface.
+struct Orbit {
+  glm::dvec3 target{0, 0, 0};
+  glm::dvec3 normal{0, 1, 0};  // of the surface at the target, any length but 0
+  double angle_deg = 90;       // between the view axis and the surface, (0, 90]
+  double azimuth_deg = 0;      // around the normal: 0 puts the eye towards +z, 90 towards +x
+  double distance = 1;         // from target to eye, scene units, > 0
+};
+
 /// A pinhole view.
 struct View {
   std::string name;
   glm::dvec3 eye{0, 0, 1};
   glm::dvec3 target{0, 0, 0};
   glm::dvec3 up{0, 1, 0};
-  double fov_y_deg = 45;     // vertical, (0, 180)
-  double near_plane = 1e-3;  // world units along the view axis, > 0; there is no far plane
+  double fov_y_deg = 45;         // vertical, (0, 180)
+  double near_plane = 1e-3;      // world units along the view axis, > 0; there is no far plane
+  std::optional<Orbit> orbit{};  // what eye, target and up were made from, if so
 };
+
+/// `base` with its eye, target and up from `orbit`. Up turns with the angle, so that a sweep from
+/// 90 degrees down to the surface is smooth. For a normal within 25 degrees of the z axis, azimuth
+/// 0 is towards +y instead. Throws Error for a value out of the ranges above.
+View orbitView(const View& base, const Orbit& orbit);
 
 /// [ZK16] Sect. 4.5, ready for the device, with what selects the effects.
 struct Material {

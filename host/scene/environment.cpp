@@ -1,0 +1,201 @@
+#include "host/scene/environment.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "host/core/error.h"
+
+namespace glintmark {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr int kSkyWidth_px = 512;
+constexpr int kSkyHeight_px = 256;
+
+double luminance(const glm::dvec3& rgb) {
+  return glm::dot(rgb, {0.2126, 0.7152, 0.0722});
+}
+
+/// What cutting needs to know of a set of pixels; sums over more pixels are sums of these.
+struct Light {
+  glm::dvec3 flux{0};     // rgb: sum of radiance times solid angle
+  double luminous = 0;    // luminance of the flux
+  glm::dvec3 towards{0};  // sum of luminance times solid angle times direction
+
+  Light& operator+=(const Light& o) {
+    flux += o.flux, luminous += o.luminous, towards += o.towards;
+    return *this;
+  }
+  Light operator-(const Light& o) const {
+    return {flux - o.flux, luminous - o.luminous, towards - o.towards};
+  }
+  /// 0 if all the light comes from one direction.
+  double spread() const { return luminous - glm::length(towards); }
+};
+
+struct Region {
+  int x0, x1, y0, y1;  // pixels [x0, x1) x [y0, y1)
+  Light light{};
+};
+
+struct Cut {
+  bool vertical = false;  // between columns, at x; else between rows, at y
+  int at = 0;             // first column or row of the second half
+  double gain = -1;       // spread removed
+};
+
+/// The map, checked, with the directions of its pixels.
+class LightMap {
+ public:
+  LightMap(const Image& map, const EnvironmentCut& cut) : map_(map), scale_(cut.scale) {
+    for (int y = 0; y <= map.height; ++y) row_angle_.push_back(kPi * y / map.height);
+    for (int x = 0; x < map.width; ++x) {
+      const double azimuth = kPi - 2 * kPi * ((x + 0.5) / map.width - 0.5) + cut.rotation_rad;
+      column_direction_.emplace_back(std::sin(azimuth), std::cos(azimuth));
+    }
+  }
+
+  Light pixel(int x, int y) const {
+    const double top = row_angle_[y], bottom = row_angle_[y + 1], middle = 0.5 * (top + bottom);
+    const double solid_angle = (std::cos(top) - std::cos(bottom)) * 2 * kPi / map_.width;
+    const auto rgb = map_.at(x, y);
+    Light light;
+    light.flux = glm::dvec3(rgb[0], rgb[1], rgb[2]) * (scale_ * solid_angle);
+    light.luminous = luminance(light.flux);
+    const glm::dvec2 around = column_direction_[x] * std::sin(middle);
+    light.towards = light.luminous * glm::dvec3(around.x, std::cos(middle), around.y);
+    return light;
+  }
+
+ private:
+  const Image& map_;
+  double scale_;
+  std::vector<double> row_angle_;  // from +y to each row's upper border; one more for the last
+  std::vector<glm::dvec2> column_direction_;  // x and z
+};
+
+/// The best place to cut the lines of a region, given each line's light in order.
+void improveCut(const std::vector<Light>& lines, const Light& whole, bool vertical, int first,
+                Cut& best) {
+  Light before;
+  for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
+    before += lines[i];
+    const double gain = whole.spread() - before.spread() - (whole - before).spread();
+    if (gain > best.gain) best = {vertical, first + static_cast<int>(i) + 1, gain};
+  }
+}
+
+/// Fills region.light and finds its best cut; gain stays negative for a single pixel.
+Cut examine(const LightMap& map, Region& region) {
+  std::vector<Light> columns(region.x1 - region.x0), rows(region.y1 - region.y0);
+  for (int y = region.y0; y < region.y1; ++y) {
+    for (int x = region.x0; x < region.x1; ++x) {
+      const Light light = map.pixel(x, y);
+      columns[x - region.x0] += light;
+      rows[y - region.y0] += light;
+    }
+  }
+  region.light = {};
+  for (const Light& row : rows) region.light += row;
+  Cut best;
+  improveCut(columns, region.light, true, region.x0, best);
+  improveCut(rows, region.light, false, region.y0, best);
+  return best;
+}
+
+void checkMap(const Image& map) {
+  if (map.width < 1 || map.height < 1 || map.channels < 3) {
+    throw Error(fmt::format("the environment map is {} x {} with {} channels, expected rgb pixels",
+                            map.width, map.height, map.channels));
+  }
+  for (int y = 0; y < map.height; ++y) {
+    for (int x = 0; x < map.width; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        const float value = map.at(x, y)[c];
+        if (std::isfinite(value) && value >= 0) continue;
+        throw Error(
+            fmt::format("pixel ({}, {}) of the environment map is {}, expected a finite "
+                        "radiance of at least 0",
+                        x, y, value));
+      }
+    }
+  }
+}
+
+ConeLight toCone(const Light& light) {
+  const double length = glm::length(light.towards);
+  const glm::dvec3 axis = length > 0 ? light.towards / length : glm::dvec3(0, 1, 0);
+  // The mean direction of an even cone of half-angle a has length (1 + cos a) / 2.
+  const double mean_length = light.luminous > 0 ? std::min(length / light.luminous, 1.0) : 0.5;
+  const double cos_angle = std::clamp(2 * mean_length - 1, 0.0, 1.0);
+  const glm::dvec3 irradiance = light.flux * (0.5 * (1 + cos_angle));
+  ConeLight cone;
+  cone.direction = {static_cast<float>(axis.x), static_cast<float>(axis.y),
+                    static_cast<float>(axis.z), static_cast<float>(std::acos(cos_angle))};
+  cone.irradiance = {static_cast<float>(irradiance.x), static_cast<float>(irradiance.y),
+                     static_cast<float>(irradiance.z), 0};
+  return cone;
+}
+
+}  // namespace
+
+std::vector<ConeLight> cutEnvironment(const Image& map, const EnvironmentCut& cut) {
+  checkMap(map);
+  const LightMap light_map(map, cut);
+  std::vector<Region> regions = {{0, map.width, 0, map.height}};
+  std::vector<Cut> cuts = {examine(light_map, regions[0])};
+  if (regions[0].light.luminous <= 0) {
+    throw Error("the environment map is black, expected some light or no environment at all");
+  }
+  while (static_cast<int>(regions.size()) < cut.cone_count) {
+    const auto best = std::max_element(cuts.begin(), cuts.end(),
+                                       [](const Cut& a, const Cut& b) { return a.gain < b.gain; });
+    if (best->gain <= 0) break;
+    const std::size_t index = static_cast<std::size_t>(best - cuts.begin());
+    Region second = regions[index];
+    (best->vertical ? second.x0 : second.y0) = best->at;
+    (best->vertical ? regions[index].x1 : regions[index].y1) = best->at;
+    cuts[index] = examine(light_map, regions[index]);
+    cuts.push_back(examine(light_map, second));
+    regions.push_back(second);
+  }
+  std::vector<ConeLight> cones;
+  for (const Region& region : regions) {
+    if (region.light.luminous > 0) cones.push_back(toCone(region.light));
+  }
+  return cones;
+}
+
+glm::dvec3 coneFlux(const ConeLight& light) {
+  return glm::dvec3(light.irradiance.x, light.irradiance.y, light.irradiance.z) *
+         (2 / (1 + std::cos(static_cast<double>(light.direction.w))));
+}
+
+Image renderSky(const SkyParameters& sky) {
+  Image map(kSkyWidth_px, kSkyHeight_px, 3);
+  for (int y = 0; y < map.height; ++y) {
+    const double from_zenith = kPi * (y + 0.5) / map.height;
+    const double height = std::cos(from_zenith);
+    // The horizon's colour fills most of the lower sky; the ground is even.
+    const glm::dvec3 background =
+        height > 0 ? glm::mix(sky.horizon, sky.zenith, std::sqrt(height)) : sky.ground;
+    for (int x = 0; x < map.width; ++x) {
+      const double azimuth = kPi - 2 * kPi * ((x + 0.5) / map.width - 0.5);
+      const glm::dvec3 direction(std::sin(from_zenith) * std::sin(azimuth), height,
+                                 std::sin(from_zenith) * std::cos(azimuth));
+      glm::dvec3 radiance = background;
+      for (const SkyParameters::Lamp& lamp : sky.lamps) {
+        if (glm::dot(direction, lamp.direction) > std::cos(lamp.half_angle_rad)) {
+          radiance += lamp.radiance;
+        }
+      }
+      for (int c = 0; c < 3; ++c) map.at(x, y)[c] = static_cast<float>(radiance[c]);
+    }
+  }
+  return map;
+}
+
+}  // namespace glintmark

@@ -1,0 +1,117 @@
+#include "host/scene/load_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+#include "host/core/error.h"
+#include "host/scene/fit_views.h"
+#include "host/scene/mesh_checks.h"
+#include "host/scene/mesh_frames.h"
+#include "host/scene/overrides.h"
+#include "host/scene/read_scene_parts.h"
+#include "host/scene/scene_files.h"
+
+namespace glintmark {
+namespace {
+
+toml::table parseFile(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  const std::string content((std::istreambuf_iterator<char>(stream)), {});
+  if (!stream) throw Error(fmt::format("{}: cannot be read", file));
+  try {
+    return toml::parse(content, file);
+  } catch (const toml::parse_error& error) {
+    throw Error(fmt::format("{}:{}: malformed TOML: {}", file, error.source().begin.line,
+                            error.description()));
+  }
+}
+
+/// Material of a part by the first rule that fits its name.
+std::uint32_t materialOf(const std::string& part, const std::vector<MeshPlan::PartRule>& rules) {
+  for (const MeshPlan::PartRule& rule : rules) {
+    const bool is_prefix = rule.pattern.ends_with('*');
+    if (is_prefix ? part.starts_with(rule.pattern.substr(0, rule.pattern.size() - 1))
+                  : part == rule.pattern) {
+      return rule.material;
+    }
+  }
+  return 0;
+}
+
+void buildMesh(const MeshPlan& plan, Scene& scene) {
+  PartMesh built = plan.build();
+  std::vector<std::uint32_t> material_of_part;
+  for (const std::string& part : built.parts) {
+    material_of_part.push_back(materialOf(part, plan.rules));
+  }
+  for (std::uint32_t& index : built.mesh.triangle_materials) index = material_of_part[index];
+  for (glm::dvec2& uv : built.mesh.uvs) uv *= plan.uv_scale;
+  checkMesh(built.mesh, plan.source);
+  computeTangents(built.mesh);
+  scene.mesh = std::move(built.mesh);
+  scene.notes.insert(scene.notes.end(), built.notes.begin(), built.notes.end());
+}
+
+/// The asset's views replace those of the same names and join the others.
+void replaceViews(const std::vector<View>& own_views, std::vector<View>& views) {
+  for (const View& own : own_views) {
+    const auto same =
+        std::find_if(views.begin(), views.end(), [&](const View& v) { return v.name == own.name; });
+    if (same != views.end()) {
+      *same = own;
+    } else {
+      views.push_back(own);
+    }
+  }
+}
+
+void readPost(SceneTable& root, PostEffects& post) {
+  std::optional<SceneTable> table = root.table("post");
+  if (!table) return;
+  post.star = table->flag("star", post.star);
+  post.exposure = table->number("exposure", post.exposure, kPositive);
+  table->finish();
+}
+
+}  // namespace
+
+Scene loadScene(const SceneRequest& request) {
+  const std::filesystem::path path = findSceneFile(request.scene);
+  const std::string file = path.string();
+  toml::table content = parseFile(file);
+  for (const std::string& text : request.overrides) applyOverride(content, text, file);
+
+  SceneTable root(content, "", file);
+  Scene scene;
+  scene.name = path.stem().string();
+  scene.description = root.text("description");
+  scene.cull_back_faces = root.flag("cull_back_faces", false);
+  scene.materials = readMaterials(root);
+  scene.views = readViews(root.tables("view"));
+  if (scene.views.empty()) root.fail("view", "is missing, expected at least one [[view]]");
+  scene.lights = readLights(root);
+  readPost(root, scene.post);
+  const MeshPlan plan = readMesh(root, request, scene.materials);
+  scene.environment = readEnvironment(root, request, scene.lights);
+  root.finish();
+  if (scene.lights.empty()) {
+    root.fail("light", "is missing, expected at least one [[light]] or an [environment]");
+  }
+
+  buildMesh(plan, scene);
+  replaceViews(plan.own_views, scene.views);
+  if (plan.needs_fitted_views) {
+    fitViews(scene.mesh, scene.views);
+    scene.notes.push_back(fmt::format("the views were fitted to {}", plan.source));
+  }
+  if (!plan.missing_asset.empty()) {
+    scene.notes.push_back(fmt::format("{} is not in {}, so the procedural mesh stands in",
+                                      plan.missing_asset, request.asset_folder.string()));
+  }
+  return scene;
+}
+
+}  // namespace glintmark

@@ -1,0 +1,88 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/core/error.h"
+#include "host/scene/read_scene_parts.h"
+
+namespace glintmark {
+namespace {
+
+constexpr Range kFraction{0, 1, true};
+constexpr Range kReflectance{0, 1};
+constexpr Range kLogDensity{-12, 18};
+
+float4 toFloat4(const glm::dvec3& v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0};
+}
+
+float2 toFloat2(const glm::dvec2& v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y)};
+}
+
+void readType(SceneTable& table, Material& material) {
+  const std::string type = table.text("type", "glints");
+  if (type != "glints" && type != "grooves" && type != "smooth") {
+    table.fail("type", fmt::format("is '{}', expected glints, grooves or smooth", type));
+  }
+  material.has_glints = type != "smooth";
+  material.has_grooves = type == "grooves";
+}
+
+void readPalette(SceneTable& table, Material& material) {
+  if (!table.has("palette")) return;
+  material.has_colour = material.has_glints;
+  if (table.isText("palette")) {
+    if (table.text("palette") != "wheel") {
+      table.fail("palette", fmt::format("is '{}', expected \"wheel\" or a list of colours",
+                                        table.text("palette")));
+    }
+    return;
+  }
+  const std::vector<glm::dvec3> colours = table.colours("palette", kReflectance);
+  if (colours.empty() || colours.size() > GM_MAX_PALETTE) {
+    table.fail("palette",
+               fmt::format("has {} colours, expected 1 to {}", colours.size(), GM_MAX_PALETTE));
+  }
+  material.glint.palette_count = static_cast<uint>(colours.size());
+  std::transform(colours.begin(), colours.end(), material.glint.palette, toFloat4);
+}
+
+Material readMaterial(SceneTable& table) {
+  Material material;
+  material.name = table.text("name");
+  readType(table, material);
+  const glm::dvec2 alpha_g = table.vector2("global_roughness", glm::dvec2(0.3), kFraction);
+  const glm::dvec2 micro = table.vector2("micro_roughness", glm::dvec2(0.1), kFraction);
+  material.glint.alpha_g = toFloat2(alpha_g);
+  material.glint.alpha_l = toFloat2(alpha_g * micro);
+  material.glint.density =
+      static_cast<float>(std::pow(10.0, table.number("log_density", 6, kLogDensity)));
+  material.glint.size_variation =
+      static_cast<float>(table.number("size_variation", 0, kNotNegative));
+  material.glint.intensity = static_cast<float>(table.number("intensity", 1, kNotNegative));
+  material.glint.f0 = toFloat4(table.vector3("f0", glm::dvec3(0.04), kReflectance));
+  material.glint.albedo = toFloat4(table.vector3("albedo", glm::dvec3(0), kReflectance));
+  readPalette(table, material);
+  table.finish();
+  return material;
+}
+
+}  // namespace
+
+std::vector<Material> readMaterials(SceneTable& root) {
+  std::vector<Material> materials;
+  for (SceneTable& table : root.tables("material")) {
+    Material material = readMaterial(table);
+    if (material.name.empty()) table.fail("name", "is missing, expected the material's name");
+    for (const Material& other : materials) {
+      if (other.name == material.name) table.fail("name", "is taken by another material");
+    }
+    materials.push_back(std::move(material));
+  }
+  if (materials.empty()) root.fail("material", "is missing, expected at least one [[material]]");
+  return materials;
+}
+
+}  // namespace glintmark

@@ -1,0 +1,48 @@
+// The readers of a scene file's sections. Each throws Error with the place in the file.
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "host/scene/load_scene.h"
+#include "host/scene/part_mesh.h"
+#include "host/scene/scene_table.h"
+
+namespace glintmark {
+
+/// [[material]]; at least one.
+std::vector<Material> readMaterials(SceneTable& root);
+
+/// [[light]].
+std::vector<ConeLight> readLights(SceneTable& root);
+
+/// [environment], appended to `lights` as cones.
+EnvironmentInfo readEnvironment(SceneTable& root, const SceneRequest& request,
+                                std::vector<ConeLight>& lights);
+
+/// A list of views from [[view]] tables; names must differ.
+std::vector<View> readViews(std::vector<SceneTable> tables);
+
+/// Unit vector at an azimuth around y (0 is +z, 90 is +x) and an elevation above the horizon.
+glm::dvec3 directionFromAngles(double azimuth_deg, double elevation_deg);
+
+/// Where the mesh comes from, checked but not yet built.
+struct MeshPlan {
+  struct PartRule {
+    std::string pattern;  // a part's name, or the start of one and '*'
+    std::uint32_t material = 0;
+  };
+  std::function<PartMesh()> build;
+  std::string source;           // for messages: a file, or "generator car"
+  double uv_scale = 1;          // uv units per uv unit of the source
+  std::vector<PartRule> rules;  // first match counts; no match: material 0
+  std::vector<View> own_views;  // of the asset: they replace the scene's views of the same names
+  std::string missing_asset;    // looked for in the asset folder and not found
+  bool needs_fitted_views = false;  // a stranger's mesh: the scene's cameras mean nothing
+};
+
+/// [mesh].
+MeshPlan readMesh(SceneTable& root, const SceneRequest& request,
+                  const std::vector<Material>& materials);
+
+}  // namespace glintmark
