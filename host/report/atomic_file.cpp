@@ -64,7 +64,7 @@ void writeAll(int descriptor, std::string_view text, const fs::path& path) {
   }
 }
 
-void writeTextFile(const fs::path& target, std::string_view text) {
+void writeFile(const fs::path& target, std::string_view text) {
   AtomicFile file(target);
   const int descriptor = open(file.tempPath().c_str(), O_WRONLY | O_CLOEXEC);
   if (descriptor < 0) fail("write", target, errno);

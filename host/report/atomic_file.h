@@ -1,6 +1,7 @@
 // Files that appear whole or not at all.
 #pragma once
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 namespace glintmark {
@@ -26,8 +27,8 @@ class AtomicFile {
   bool committed_ = false;
 };
 
-/// Writes a whole text file. Throws Error naming the file and the system's reason.
-void writeTextFile(const std::filesystem::path& target, std::string_view text);
+/// Writes a whole file of text or bytes. Throws Error naming the file and the system's reason.
+void writeFile(const std::filesystem::path& target, std::string_view text);
 
 /// Reads a whole text file. Throws Error naming the file and the system's reason.
 std::string readTextFile(const std::filesystem::path& path);

@@ -1,5 +1,6 @@
 #include "host/report/image_io.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
@@ -43,21 +44,23 @@ void requireConsistent(const Image& image, const std::filesystem::path& path) {
   }
 }
 
-// Writes to a temporary file and renames it.
-void writeFile(const std::string& format, const OIIO::ImageSpec& spec, OIIO::TypeDesc pixel_type,
-               const void* pixels, const std::filesystem::path& path) {
-  AtomicFile file(path);
+// Encodes in memory and writes the bytes ourselves: OpenImageIO does not report every failed write
+// of a PNG.
+void encodeFile(const std::string& format, const OIIO::ImageSpec& spec, OIIO::TypeDesc pixel_type,
+                const void* pixels, const std::filesystem::path& path) {
   auto output = OIIO::ImageOutput::create(format);
   if (!output) {
     throw Error(
         fmt::format("cannot write {}: this OpenImageIO has no {} support", path.string(), format));
   }
-  const bool written = output->open(file.tempPath().string(), spec) &&
+  std::vector<unsigned char> bytes;
+  OIIO::Filesystem::IOVecOutput memory(bytes);
+  const bool encoded = output->set_ioproxy(&memory) && output->open(path.string(), spec) &&
                        output->write_image(pixel_type, pixels) && output->close();
-  if (!written) {
+  if (!encoded) {
     throw Error(fmt::format("cannot write {}: {}", path.string(), output->geterror()));
   }
-  file.commit();
+  writeFile(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 }  // namespace
@@ -75,7 +78,7 @@ void writeExr(const Image& image, const std::filesystem::path& path) {
   OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::FLOAT);
   spec.channelnames = channelNames(image, path);
   spec.attribute("compression", "zip");
-  writeFile("openexr", spec, OIIO::TypeDesc::FLOAT, image.pixels.data(), path);
+  encodeFile("openexr", spec, OIIO::TypeDesc::FLOAT, image.pixels.data(), path);
 }
 
 void writePng(const Image& image, const std::filesystem::path& path) {
@@ -92,7 +95,7 @@ void writePng(const Image& image, const std::filesystem::path& path) {
   });
   OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", "sRGB");
-  writeFile("png", spec, OIIO::TypeDesc::UINT8, bytes.data(), path);
+  encodeFile("png", spec, OIIO::TypeDesc::UINT8, bytes.data(), path);
 }
 
 Image readImage(const std::filesystem::path& path) {

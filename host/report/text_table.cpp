@@ -35,11 +35,10 @@ std::string TextTable::toString() const {
   const std::size_t cells = std::accumulate(widths.begin(), widths.end(), std::size_t{0});
   const std::size_t gaps = widths.size() - 1;
   const std::size_t gap = cells + 2 * gaps <= kTableColumnsLimit ? 2 : 1;
-  const std::size_t total = cells + gap * gaps;
-  if (total > kTableColumnsLimit) {
-    throw Error(fmt::format("a table would be {} columns wide, but {} is the limit", total,
-                            kTableColumnsLimit));
-  }
+  const std::size_t needed = cells + gap * gaps;
+  const std::size_t excess = needed - std::min(needed, kTableColumnsLimit);
+  widths[0] -= std::min(excess, widths[0] - 1);
+  const std::size_t total = needed - excess;
 
   std::string text;
   for (const auto& row : rows_) {
@@ -47,7 +46,7 @@ std::string TextTable::toString() const {
       text += std::string(total, '-') + '\n';
       continue;
     }
-    std::string line = fmt::format("{:<{}}", row[0], widths[0]);
+    std::string line = fmt::format("{:<{}.{}}", row[0], widths[0], widths[0]);
     for (std::size_t c = 1; c < row.size(); ++c) {
       line += fmt::format("{:>{}}", row[c], widths[c] + gap);
     }
@@ -60,6 +59,9 @@ std::string compactNumber(double value) {
   if (!std::isfinite(value)) return "-";
   const double size = std::abs(value);
   if (size == 0) return "0";
+  if (size >= 99.95e6) return fmt::format("{:.0f}M", value / 1e6);
+  if (size >= 0.9995e6) return fmt::format("{:.1f}M", value / 1e6);
+  if (size >= 99999.5) return fmt::format("{:.0f}k", value / 1e3);
   if (size >= 99.95) return fmt::format("{:.0f}", value);
   if (size >= 9.995) return fmt::format("{:.1f}", value);
   if (size >= 0.9995) return fmt::format("{:.2f}", value);

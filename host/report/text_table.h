@@ -7,8 +7,9 @@ namespace glintmark {
 
 inline constexpr std::size_t kTableColumnsLimit = 100;
 
-/// Columns as wide as their widest cell, two spaces (one if that is too wide) between them. The
-/// first column is left-aligned, the others right-aligned.
+/// Columns as wide as their widest cell, two spaces between them; one space if lines would be wider
+/// than kTableColumnsLimit, and if they still are, the first column is cut to fit. The first column
+/// is left-aligned, the others right-aligned.
 class TextTable {
  public:
   explicit TextTable(std::vector<std::string> header);
@@ -16,15 +17,14 @@ class TextTable {
   void addRow(std::vector<std::string> row);
   /// A rule of dashes before the next row.
   void addRule();
-  /// Throws Error if a line would be wider than kTableColumnsLimit.
   std::string toString() const;
 
  private:
   std::vector<std::vector<std::string>> rows_;  // the header first; an empty row is a rule
 };
 
-/// `value` with three significant digits and no exponent where that is readable ("0.0123", "4.10",
-/// "123", "45678"); "-" if it is not finite.
+/// `value` with three significant digits where that is readable ("0.0123", "4.10", "123", "45678",
+/// thousands and millions as "460k", "21.0M"); "-" if it is not finite.
 std::string compactNumber(double value);
 
 }  // namespace glintmark

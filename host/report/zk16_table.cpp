@@ -86,14 +86,13 @@ std::string zk16TableText(std::span<const Record> records) {
 
 std::string zk16BreakdownText(std::span<const Record> records) {
   TextTable table({"case (ms)", "raster", "upload", "frame+", "frame-", "event", "readback",
-                   "build", "1st enq", "covered px", "B/px", "guard"});
+                   "build", "1st enq", "px", "B/px", "guard"});
   for (const std::string& name : caseNames(records)) {
     const CaseRecords one(records, name);
     table.addRow({name, one.text("raster_ms"), one.text("upload_ms"), one.text("frame_with_ms"),
                   one.text("frame_without_ms"), one.text("shading_event_ms"),
                   one.text("readback_ms"), one.text("build_ms"), one.text("first_enqueue_ms"),
-                  one.count("covered_px"), one.text("buffer_bytes_per_px"),
-                  one.count("guard_hits")});
+                  one.text("covered_px"), one.text("buffer_bytes_per_px"), one.text("guard_hits")});
   }
   return table.toString();
 }

@@ -1,0 +1,142 @@
+#include "host/report/heatmap.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "host/core/error.h"
+#include "host/report/colour_map.h"
+#include "host/report/text_drawing.h"
+
+namespace glintmark {
+namespace {
+
+Image cellsOf(int width, int height, std::vector<float> values) {
+  Image image(width, height, 1);
+  image.pixels = std::move(values);
+  return image;
+}
+
+DisplayColour colourAt(const Image& image, int x, int y) {
+  const auto pixel = image.at(x, y);
+  return {pixel[0], pixel[1], pixel[2]};
+}
+
+TEST(CellDistribution, ByHand) {
+  const CellDistribution d = cellDistribution(cellsOf(3, 2, {-1, 8, 10, 8, 14, -1}));
+  EXPECT_EQ(d.glint_px, 4u);
+  EXPECT_EQ(d.min, 8);
+  EXPECT_EQ(d.max, 14);
+  EXPECT_EQ(d.mean, 10);
+  ASSERT_EQ(d.pixels_by_count.size(), 15u);
+  EXPECT_EQ(d.pixels_by_count[8], 2u);
+  EXPECT_EQ(d.pixels_by_count[14], 1u);
+}
+
+TEST(CellDistribution, NoGlintPixels) {
+  const CellDistribution d = cellDistribution(cellsOf(2, 1, {-1, -1}));
+  EXPECT_EQ(d.glint_px, 0u);
+  EXPECT_EQ(d.mean, 0);
+  EXPECT_NE(histogramText(d).find("no pixel"), std::string::npos);
+}
+
+TEST(Histogram, CountsEveryPixelOnce) {
+  Image cells(100, 40, 1);
+  for (std::size_t i = 0; i < cells.pixels.size(); ++i) {
+    cells.pixels[i] = static_cast<float>(8 + i * i % 57);
+  }
+  std::istringstream text(histogramText(cellDistribution(cells)));
+  std::string line;
+  std::getline(text, line);  // header
+  std::size_t total = 0;
+  double percent = 0;
+  while (std::getline(text, line)) {
+    EXPECT_LE(line.size(), 100u);
+    std::istringstream fields(line);
+    std::string range, share;
+    std::size_t pixels = 0;
+    fields >> range >> pixels >> share;
+    total += pixels;
+    percent += std::stod(share);
+  }
+  EXPECT_EQ(total, cells.pixels.size());
+  EXPECT_NEAR(percent, 100, 0.2);  // two digits on at most 16 lines
+}
+
+TEST(Histogram, OneValueAndHugeValues) {
+  EXPECT_NE(histogramText(cellDistribution(cellsOf(2, 1, {8, 8}))).find("100.00%"),
+            std::string::npos);
+  const std::string text = histogramText(cellDistribution(cellsOf(2, 1, {8, 3e9f})));
+  EXPECT_LT(text.size(), 3000u);
+}
+
+TEST(Heatmap, FixedScaleIsThePapers) {
+  const Image colours = heatmapColours(cellsOf(5, 1, {8, 64, 36, 3, 900}), HeatmapRange{});
+  EXPECT_EQ(colourAt(colours, 0, 0), falseColour(0));
+  EXPECT_EQ(colourAt(colours, 1, 0), falseColour(1));
+  EXPECT_EQ(colourAt(colours, 2, 0), falseColour(0.5));
+  EXPECT_EQ(colourAt(colours, 3, 0), falseColour(0));
+  EXPECT_EQ(colourAt(colours, 4, 0), falseColour(1));
+}
+
+TEST(Heatmap, AutoScaleSpansTheImage) {
+  const CellDistribution d = cellDistribution(cellsOf(3, 1, {-1, 10, 20}));
+  const HeatmapRange range = heatmapRange(HeatmapScale::kAuto, d);
+  EXPECT_EQ(range.low, 10);
+  EXPECT_EQ(range.high, 20);
+  const HeatmapRange flat =
+      heatmapRange(HeatmapScale::kAuto, cellDistribution(cellsOf(1, 1, {12})));
+  EXPECT_GT(flat.high, flat.low);
+}
+
+TEST(Heatmap, PictureKeepsPixelsAndAddsALegend) {
+  Image cells(400, 50, 1);
+  for (float& count : cells.pixels) count = 64;
+  cells.at(7, 9)[0] = -1;
+  const Image picture = heatmapPicture(cells, {.title = "snow/steep", .guard_hits = 12});
+  EXPECT_EQ(picture.width, 400);
+  EXPECT_GT(picture.height, 80);
+  EXPECT_EQ(colourAt(picture, 8, 9), falseColour(1));
+  const DisplayColour uncovered = colourAt(picture, 7, 9);
+  EXPECT_EQ(uncovered[0], uncovered[1]);
+  EXPECT_EQ(uncovered[0], uncovered[2]);
+
+  // The colour bar runs from the first to the last colour in some row of the legend.
+  bool bar_found = false;
+  for (int y = 50; y < picture.height; ++y) {
+    bar_found |=
+        colourAt(picture, 4, y) == falseColour(0) && colourAt(picture, 395, y) == falseColour(1);
+  }
+  EXPECT_TRUE(bar_found);
+}
+
+TEST(Heatmap, TinyImagesStillGetALegend) {
+  const Image picture = heatmapPicture(cellsOf(1, 1, {8}), {.title = "x"});
+  EXPECT_GE(picture.width, 300);
+  EXPECT_EQ(colourAt(picture, 0, 0), falseColour(0));
+  EXPECT_EQ(colourAt(picture, 100, 0), (DisplayColour{1, 1, 1}));
+}
+
+TEST(Heatmap, StripPutsPicturesSideBySide) {
+  const std::vector<Image> cells = {cellsOf(2, 1, {8, 8}), cellsOf(2, 1, {64, 64})};
+  const Image strip = heatmapStrip(cells, {"90", "1"}, HeatmapScale::kFixed, "plane");
+  EXPECT_EQ(colourAt(strip, 1, 0), falseColour(0));
+  EXPECT_EQ(colourAt(strip, 2, 0), falseColour(1));
+  EXPECT_THROW(heatmapStrip(cells, {"90"}, HeatmapScale::kFixed, "plane"), Error);
+  EXPECT_THROW(heatmapStrip({}, {}, HeatmapScale::kFixed, "plane"), Error);
+}
+
+TEST(TextDrawing, GlyphPixelsAndClipping) {
+  const DisplayColour ink = {1, 0, 0};
+  Image image(8, 8, 3);
+  drawText(image, 0, 0, "1", 1, ink);
+  EXPECT_EQ(colourAt(image, 2, 0), ink);  // the stem
+  EXPECT_NE(colourAt(image, 0, 0), ink);
+  EXPECT_EQ(colourAt(image, 2, 6), ink);   // the foot
+  drawText(image, -3, -3, "888", 3, ink);  // partly outside: must not crash
+  EXPECT_EQ(textWidth("", 2), 0);
+  EXPECT_EQ(textWidth("ab", 2), 22);
+}
+
+}  // namespace
+}  // namespace glintmark

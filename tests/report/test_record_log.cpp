@@ -1,0 +1,120 @@
+#include "host/report/record_log.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "host/core/error.h"
+#include "host/report/atomic_file.h"
+#include "host/report/records.h"
+#include "tests/report/sample_records.h"
+#include "tests/report/temp_folder.h"
+
+namespace glintmark {
+namespace {
+
+void appendOne(RecordLog& log, const Record& record) {
+  log.append({&record, 1});
+}
+
+TEST(RecordLog, EveryRecordIsOnDiskAtOnce) {
+  const TempFolder folder;
+  RecordLog log = RecordLog::create(folder / "a.jsonl", sampleRun());
+  appendOne(log, sampleRecord("a/b", "m", 1));
+  // The log is still open; another reader sees two whole lines.
+  const std::string text = readTextFile(folder / "a.jsonl");
+  EXPECT_EQ(std::ranges::count(text, '\n'), 2);
+  EXPECT_TRUE(text.ends_with('\n'));
+}
+
+TEST(RecordLog, ResumeFindsByConfiguration) {
+  const TempFolder folder;
+  {
+    RecordLog log = RecordLog::create(folder / "a.jsonl", sampleRun());
+    appendOne(log, sampleRecord("a/b", "m", 1));
+    appendOne(log, sampleRecord("a/b", "m", 2));
+  }
+  const RecordLog log = RecordLog::resume(folder / "a.jsonl", sampleRun());
+  ASSERT_EQ(log.records().size(), 2u);
+  const Record* found = log.find(sampleRecord("a/b", "m", 0));
+  ASSERT_NE(found, nullptr);
+  EXPECT_EQ(found->value.median, 2);  // the later one
+  Record other = sampleRecord("a/b", "m", 0);
+  other.config["size"] = "64x36";
+  EXPECT_EQ(log.find(other), nullptr);
+  EXPECT_EQ(log.find(sampleRecord("a/b", "other", 0)), nullptr);
+  EXPECT_EQ(log.find(sampleRecord("a/c", "m", 0)), nullptr);
+}
+
+TEST(RecordLog, CutOffLastLineIsDropped) {
+  const TempFolder folder;
+  {
+    RecordLog log = RecordLog::create(folder / "a.jsonl", sampleRun());
+    appendOne(log, sampleRecord("a/b", "m", 1));
+  }
+  std::ofstream(folder / "a.jsonl", std::ios::app) << R"({"table":"zk16","case":"a/)";
+  {
+    RecordLog log = RecordLog::resume(folder / "a.jsonl", sampleRun());
+    EXPECT_EQ(log.records().size(), 1u);
+    appendOne(log, sampleRecord("a/c", "m", 3));
+  }
+  const RecordLog log = RecordLog::resume(folder / "a.jsonl", sampleRun());
+  ASSERT_EQ(log.records().size(), 2u);
+  EXPECT_EQ(log.records()[1].case_, "a/c");
+}
+
+TEST(RecordLog, DamageBeforeTheLastLineIsAnError) {
+  const TempFolder folder;
+  writeFile(folder / "a.jsonl", headerLine(sampleRun()) + "\n{\"table\":\n" +
+                                    recordLine(sampleRecord("a/b", "m", 1)) + "\n");
+  const std::string message =
+      messageOf<Error>([&] { RecordLog::resume(folder / "a.jsonl", sampleRun()); });
+  EXPECT_NE(message.find("a.jsonl line 2"), std::string::npos) << message;
+}
+
+TEST(RecordLog, OtherSetupsAreRefused) {
+  const TempFolder folder;
+  { RecordLog::create(folder / "a.jsonl", sampleRun()); }
+  const auto refusal = [&](const RunInfo& run) {
+    return messageOf<Error>([&] { RecordLog::resume(folder / "a.jsonl", run); });
+  };
+  RunInfo run = sampleRun();
+  run.device = "another device";
+  EXPECT_NE(refusal(run).find("device 'cpu-device', not 'another device'"), std::string::npos);
+  run = sampleRun();
+  run.width = 8;
+  EXPECT_NE(refusal(run).find("width"), std::string::npos);
+  run = sampleRun();
+  run.git = "other";
+  EXPECT_NE(refusal(run).find("program version"), std::string::npos);
+  writeFile(folder / "a.jsonl", "{\"schema\":\"glintmark.results/9\",\"run\":{}}\n");
+  EXPECT_NE(refusal(sampleRun()).find("glintmark.results/9"), std::string::npos);
+}
+
+TEST(RecordLog, MissingOrEmptyLogStartsAfresh) {
+  const TempFolder folder;
+  EXPECT_TRUE(RecordLog::resume(folder / "none.jsonl", sampleRun()).records().empty());
+  writeFile(folder / "cut.jsonl", "{\"schema\":\"glint");
+  EXPECT_TRUE(RecordLog::resume(folder / "cut.jsonl", sampleRun()).records().empty());
+  EXPECT_EQ(readTextFile(folder / "cut.jsonl"), headerLine(sampleRun()) + "\n");
+}
+
+TEST(RecordLog, CreateReplacesAnOldLog) {
+  const TempFolder folder;
+  writeFile(folder / "a.jsonl", "old");
+  { RecordLog::create(folder / "a.jsonl", sampleRun()); }
+  EXPECT_EQ(readTextFile(folder / "a.jsonl"), headerLine(sampleRun()) + "\n");
+}
+
+TEST(RecordLog, FullDiskIsAnError) {
+  EXPECT_THROW(RecordLog::create("/dev/full", sampleRun()), Error);
+}
+
+TEST(RecordLog, UnwritablePathIsAnError) {
+  const TempFolder folder;
+  EXPECT_THROW(RecordLog::create(folder / "none/a.jsonl", sampleRun()), Error);
+}
+
+}  // namespace
+}  // namespace glintmark

@@ -1,0 +1,119 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <sstream>
+
+#include "host/core/error.h"
+#include "host/report/text_table.h"
+#include "host/report/zk16_table.h"
+#include "tests/report/sample_records.h"
+
+namespace glintmark {
+namespace {
+
+std::size_t widestLine(const std::string& text) {
+  std::istringstream lines(text);
+  std::size_t widest = 0;
+  for (std::string line; std::getline(lines, line);) widest = std::max(widest, line.size());
+  return widest;
+}
+
+// Records of all ten views with `scale` times plausible values.
+std::vector<Record> tenViews(double scale) {
+  std::vector<Record> records;
+  for (const Zk16PaperRow& row : kZk16Table1) {
+    for (const std::string_view view : kZk16Views) {
+      const std::string name = std::string(row.scene) + "/" + std::string(view);
+      for (const char* metric :
+           {"shading_ms", "normalised_cost", "ns_per_cell", "speedup_vs_w1", "cells_mean",
+            "raster_ms", "upload_ms", "readback_ms", "build_ms", "first_enqueue_ms",
+            "frame_with_ms", "frame_without_ms", "shading_event_ms", "buffer_bytes_per_px"}) {
+        records.push_back(sampleRecord(name, metric, 41.2345 * scale));
+      }
+      records.push_back(sampleRecord(name, "triangles", 570000));
+      records.push_back(sampleRecord(name, "covered_px", 2073600));
+      records.push_back(sampleRecord(name, "cells_min", 8));
+      records.push_back(sampleRecord(name, "cells_max", 64));
+      records.push_back(sampleRecord(name, "guard_hits", 2073600));
+      for (Record& record : records) {
+        if (record.metric == "shading_ms") record.paper = row.steep_ms;
+      }
+    }
+  }
+  return records;
+}
+
+TEST(TextTable, AlignsColumns) {
+  TextTable table({"name", "ms"});
+  table.addRow({"a", "1.5"});
+  table.addRow({"longer", "10"});
+  EXPECT_EQ(table.toString(),
+            "name     ms\n"
+            "-----------\n"
+            "a       1.5\n"
+            "longer   10\n");
+}
+
+TEST(TextTable, RowsOfAnotherLengthAreErrors) {
+  TextTable table({"a", "b"});
+  EXPECT_THROW(table.addRow({"1"}), Error);
+}
+
+TEST(TextTable, TooWideTablesCutTheFirstColumnOnly) {
+  TextTable table({"a", "b"});
+  table.addRow({std::string(60, 'x'), std::string(60, 'y')});
+  EXPECT_EQ(widestLine(table.toString()), kTableColumnsLimit);
+  EXPECT_NE(table.toString().find(std::string(60, 'y')), std::string::npos);
+}
+
+TEST(TextTable, CompactNumbers) {
+  EXPECT_EQ(compactNumber(0), "0");
+  EXPECT_EQ(compactNumber(0.01234), "0.0123");
+  EXPECT_EQ(compactNumber(1.234), "1.23");
+  EXPECT_EQ(compactNumber(9.996), "10.0");
+  EXPECT_EQ(compactNumber(12.34), "12.3");
+  EXPECT_EQ(compactNumber(99.96), "100");
+  EXPECT_EQ(compactNumber(45678.4), "45678");
+  EXPECT_EQ(compactNumber(99999.6), "100k");
+  EXPECT_EQ(compactNumber(2073600), "2.1M");
+  EXPECT_EQ(compactNumber(-1.5), "-1.50");
+  EXPECT_EQ(compactNumber(std::numeric_limits<double>::quiet_NaN()), "-");
+}
+
+TEST(Zk16Table, FitsHundredColumnsForPlausibleAndExtremeValues) {
+  for (const double scale : {1e-3, 1.0, 100.0}) {
+    const std::vector<Record> records = tenViews(scale);
+    EXPECT_LE(widestLine(zk16TableText(records)), 100u);
+    EXPECT_LE(widestLine(zk16BreakdownText(records)), 100u);
+  }
+}
+
+TEST(Zk16Table, ShowsPaperOursAndRatio) {
+  std::vector<Record> records = {sampleRecord("snow/steep", "shading_ms", 50)};
+  records[0].paper = 2.5;
+  records.push_back(sampleRecord("snow/steep", "triangles", 32000));
+  records.push_back(sampleRecord("snow/steep", "cells_mean", 8.4));
+  records.back().valid = false;
+  const std::string text = zk16TableText(records);
+  EXPECT_NE(text.find("32000"), std::string::npos) << text;
+  EXPECT_NE(text.find(" 2.5 "), std::string::npos) << text;
+  EXPECT_NE(text.find(" 50.0 "), std::string::npos) << text;
+  EXPECT_NE(text.find(" 20.0 "), std::string::npos) << text;  // 50 / 2.5
+  EXPECT_NE(text.find("-/8.40!/-"), std::string::npos) << text;
+}
+
+TEST(Zk16Table, PaperFigures) {
+  EXPECT_EQ(zk16PaperMs("screen_plane", "steep"), 0.9);
+  EXPECT_EQ(zk16PaperMs("sponza", "grazing"), 5.9);
+  EXPECT_EQ(zk16PaperMs("sponza", "other"), std::nullopt);
+  EXPECT_EQ(zk16PaperMs("sand", "steep"), std::nullopt);
+}
+
+TEST(Zk16Table, NormalisedCostIsOneForThePapersGpu) {
+  EXPECT_DOUBLE_EQ(normalisedCost(2.9, kGtx980PeakGflops, 2.9), 1);
+  // The prototype's plane: 41 ms at 450 GFLOP/s against 0.9 ms.
+  EXPECT_NEAR(normalisedCost(41, 450, 0.9), 4.1, 0.05);
+}
+
+}  // namespace
+}  // namespace glintmark
