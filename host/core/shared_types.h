@@ -19,10 +19,11 @@ struct alignas(16) float4 {
 static_assert(sizeof(float2) == 8 && sizeof(float4) == 16);
 static_assert(sizeof(GlintMaterial) == 192);
 static_assert(sizeof(ConeLight) == 32);
+static_assert(sizeof(LightParams) == 48);
 static_assert(sizeof(FrameParams) == 64);
 
 /// Sizes in the order in which probe.cl's `probeTypeSizes` reports them.
-inline constexpr std::array<std::uint32_t, 3> kSharedTypeSizes = {
-    sizeof(GlintMaterial), sizeof(ConeLight), sizeof(FrameParams)};
+inline constexpr std::array<std::uint32_t, 4> kSharedTypeSizes = {
+    sizeof(GlintMaterial), sizeof(ConeLight), sizeof(LightParams), sizeof(FrameParams)};
 
 }  // namespace glintmark

@@ -1,0 +1,213 @@
+// The shading entry point: one work-item shades WIDTH entries of one material's pixel list.
+#include "config.clh"
+#include "types.h"
+#include "wide.clh"
+
+#include "beckmann.clh"
+#include "frame.clh"
+#if GLINT
+#include "glint.clh"
+#endif
+
+// Below this probability a light adds nothing: the lobe is 1e-12 of a microdetail's peak.
+#define MIN_PROBABILITY 1e-12f
+
+// What a light does to a pixel before microdetails are counted.
+typedef struct {
+  vfloat specular;      // mean over the light of F0-free G D / (4 o.n), times nothing else
+  vfloat schlick;       // the same times (1 - cos)^5
+  vfloat cosine;        // mean of max(i.n, 0)
+  vfloat probability;   // [ZK16] Eq. 7, 0 where the light does not reach
+  vfloat3 half_vector;  // unit, local, of the light's axis
+} LightLobe;
+
+// The smooth lobe under one light, averaged over the light's taps.
+WIDE LightLobe evaluateLight(ShadingFrame frame, vfloat3 view, constant const GlintMaterial* material,
+                             constant const LightParams* light, constant const float4* taps) {
+  const float2 alpha_g = material->alpha_g;
+  const vfloat lambda_view = smithLambda(view, alpha_g);
+  vfloat density = (vfloat)(0.0f);
+  LightLobe lobe;
+  lobe.specular = lobe.schlick = lobe.cosine = (vfloat)(0.0f);
+
+  for (uint t = 0; t < light->tap_count; ++t) {
+    const vfloat3 tap = toLocal(frame, broadcast3(taps[light->first_tap + t]));
+    const vfloat3 l = {tap.x, tap.y, max(tap.z, (vfloat)(0.0f))};
+    const vmask above = (tap.z > 0.0f) & (view.z > 0.0f);
+    const HalfSlope h = halfSlope(l, view);
+#if LIGHT_CONE
+    const SlopeMatrix cone = coneSlopeMatrix(l, h, light->tap_variance);
+#else
+    const SlopeMatrix cone = {(vfloat)(0.0f), (vfloat)(0.0f), (vfloat)(0.0f)};
+#endif
+    const SlopeMatrix a = widen(alpha_g, cone);
+    const vfloat p22 = slopeDensity(a, h.u, h.v);
+#if GLINT && GROOVE
+    // The density across the grooves alone; along them the lobe stays smooth. [ZK16] Eq. 6
+    density += above ? wideExp2(h.v * h.v / a.vv * -LOG2_E) / sqrt(PI * a.vv) : (vfloat)(0.0f);
+#else
+    density += above ? p22 : (vfloat)(0.0f);
+#endif
+    // [ZK16] Eq. 1 times i.n, with D = P22 / (m.n)^4 and 1 / (m.n)^2 = |i + o|^2 / (i + o)_z^2.
+    const vfloat sec2 = h.length_sq / (h.sum_z * h.sum_z);
+    const vfloat masking = 1.0f / (1.0f + lambda_view + smithLambda(l, alpha_g));
+    const vfloat value = above ? p22 * sec2 * sec2 * masking / (4.0f * view.z) : (vfloat)(0.0f);
+    lobe.specular += value;
+    lobe.schlick = fma(value, schlickWeight(h), lobe.schlick);
+    lobe.cosine += l.z;
+  }
+  const float per_tap = 1.0f / (float)light->tap_count;
+  lobe.specular *= per_tap;
+  lobe.schlick *= per_tap;
+  lobe.cosine *= per_tap;
+
+  // P(h) = D_g(h) / D_l(0), both widened by the light [ZK16] Eq. 7.
+  const vfloat3 axis = toLocal(frame, broadcast3(light->direction));
+  const HalfSlope h = halfSlope(axis, view);
+#if LIGHT_CONE
+  const SlopeMatrix cone = coneSlopeMatrix(axis, h, light->variance);
+#else
+  const SlopeMatrix cone = {(vfloat)(0.0f), (vfloat)(0.0f), (vfloat)(0.0f)};
+#endif
+  const SlopeMatrix micro = widen(material->alpha_l, cone);
+#if GLINT && GROOVE
+  const vfloat inverse_peak = sqrt(PI * micro.vv);
+#else
+  const vfloat inverse_peak = PI * sqrt(determinant(micro));
+#endif
+  lobe.probability = min(density * per_tap * inverse_peak, (vfloat)(1.0f));
+
+  const vfloat length = sqrt(h.length_sq);
+  const vfloat inverse_length = 1.0f / max(length, (vfloat)(1e-12f));
+  lobe.half_vector.x = (axis.x + view.x) * inverse_length;
+  lobe.half_vector.y = (axis.y + view.y) * inverse_length;
+  lobe.half_vector.z = (axis.z + view.z) * inverse_length;
+  return lobe;
+}
+
+#if GLINT
+// The half vector in cells of its own grid, paraboloid-mapped [ZK16] Sect. 4.3. A cell is as large
+// as the effective area of a microdetail's lobe, pi alpha^2: sqrt(pi) (alpha + cone) in slopes, and
+// half of that under the paraboloid map, which is slope / 2 near the normal.
+WIDE HalfVectorCell halfVectorCell(LightLobe lobe, constant const GlintMaterial* material,
+                                   float cone_slope) {
+  const float half_sqrt_pi = 0.88622693f;
+  const float side_u = fmax(half_sqrt_pi * (material->alpha_l.x + cone_slope), 4e-5f);
+  const float side_v = fmax(half_sqrt_pi * (material->alpha_l.y + cone_slope), 4e-5f);
+  const vfloat paraboloid = 65536.0f / (1.0f + max(lobe.half_vector.z, (vfloat)(0.0f)));
+  HalfVectorCell cell;
+  cell.odds = makeBinomialOdds(lobe.probability);
+#if GROOVE
+  cell.h_u = (vint)(0);
+#else
+  cell.h_u = toInt(floor(lobe.half_vector.x * paraboloid / side_u));
+#endif
+  cell.h_v = toInt(floor(lobe.half_vector.y * paraboloid / side_v));
+  return cell;
+}
+
+WIDE CellMaterial cellMaterial(constant const GlintMaterial* material, float2 gamma) {
+  CellMaterial m;
+  m.density = material->density / (gamma.x * gamma.y);
+  m.size_variation = material->size_variation;
+  m.most_expected = 0x1p30f / fma(material->size_variation, 3.5f, 1.0f);
+#if GLINT_COLOUR
+  m.material = material;
+  m.mean_colour.x = m.mean_colour.y = m.mean_colour.z = (vfloat)(1.0f);
+  if (material->palette_count > 0u) {
+    float4 sum = (float4)(0.0f);
+    for (uint i = 0; i < material->palette_count; ++i) sum += material->palette[i];
+    m.mean_colour = broadcast3(sum / (float)material->palette_count);
+  }
+#endif
+  return m;
+}
+
+WIDE Footprint loadFootprint(global const uint* planes, size_t stride, size_t entry, float2 gamma) {
+#define LOAD(plane) loadUint(planes, (plane) * stride + entry)
+  const FixedUv u = {bitsToInt(LOAD(PLANE_U_INT)), LOAD(PLANE_U_FRAC)};
+  const FixedUv v = {bitsToInt(LOAD(PLANE_V_INT)), LOAD(PLANE_V_FRAC)};
+  return makeFootprint(u, v, bitsToFloat(LOAD(PLANE_DUDX)), bitsToFloat(LOAD(PLANE_DVDX)),
+                       bitsToFloat(LOAD(PLANE_DUDY)), bitsToFloat(LOAD(PLANE_DVDY)), gamma);
+#undef LOAD
+}
+#endif
+
+// planes: frame->plane_stride entries each, slots given by the PLANE_* switches. radiance: three
+// planes (r, g, b) of the same stride. cells: visited cells | 2^31 where a limit cut the walk.
+kernel void shade(global const uint* planes, constant const FrameParams* frame,
+                  constant const GlintMaterial* material, constant const LightParams* lights,
+                  constant const float4* taps, global float* radiance
+#if COUNT_CELLS
+                  ,
+                  global uint* cell_counts
+#endif
+) {
+  const size_t first = get_global_id(0) * WIDTH;
+  if (first >= frame->list_count) return;
+  const size_t entry = frame->list_offset + first;
+  const size_t stride = frame->plane_stride;
+
+  const vuint pixel = loadUint(planes, PLANE_PIXEL * stride + entry);
+  const ShadingFrame basis = unpackFrame(loadUint(planes, PLANE_FRAME0 * stride + entry),
+                                         loadUint(planes, PLANE_FRAME1 * stride + entry));
+  const vfloat px = toFloat(pixel & 0xFFFFu), py = toFloat(pixel >> 16);
+  vfloat3 ray = {fma(px, (vfloat)(frame->ray_dx.x), fma(py, (vfloat)(frame->ray_dy.x), (vfloat)(frame->ray_origin.x))),
+                 fma(px, (vfloat)(frame->ray_dx.y), fma(py, (vfloat)(frame->ray_dy.y), (vfloat)(frame->ray_origin.y))),
+                 fma(px, (vfloat)(frame->ray_dx.z), fma(py, (vfloat)(frame->ray_dy.z), (vfloat)(frame->ray_origin.z)))};
+  vfloat3 view = toLocal(basis, scale3(ray, -1.0f / sqrt(dot3(ray, ray))));
+  // Interpolated normals may turn from the eye at silhouettes; keep Eq. 1 finite there.
+  view.z = max(view.z, (vfloat)(1e-4f));
+
+#if GLINT
+  const float2 gamma = gridStretch(material->alpha_g, material->alpha_l);
+  const Footprint footprint = loadFootprint(planes, stride, entry, gamma);
+  const CellMaterial cell_material = cellMaterial(material, gamma);
+#endif
+  vint cells = (vint)(0);
+  vmask limited = (vint)(0);
+
+  vfloat3 sum = {(vfloat)(0.0f), (vfloat)(0.0f), (vfloat)(0.0f)};
+  for (uint i = 0; i < frame->light_count; ++i) {
+    constant const LightParams* light = &lights[i];
+    const LightLobe lobe = evaluateLight(basis, view, material, light, taps);
+    vfloat3 ratio = {(vfloat)(1.0f), (vfloat)(1.0f), (vfloat)(1.0f)};
+#if GLINT
+    const vmask lit = lobe.probability > MIN_PROBABILITY;
+    ratio.x = ratio.y = ratio.z = (vfloat)(0.0f);
+    if (anyLane(lit)) {
+      const HalfVectorCell half_cell = halfVectorCell(lobe, material, light->direction.w);
+      vint visited = (vint)(0);
+      vmask cut = (vint)(0);
+      const GlintSum share = glintRatio(&footprint, &half_cell, &cell_material, &visited, &cut);
+      // Relative to its expectation, so that the smooth lobe carries units and energy.
+      const vfloat inverse = lit ? 1.0f / lobe.probability : (vfloat)(0.0f);
+#if GLINT_COLOUR
+      ratio.x = share.x * inverse;
+      ratio.y = share.y * inverse;
+      ratio.z = share.z * inverse;
+#else
+      ratio.x = ratio.y = ratio.z = share * inverse;
+#endif
+      cells += lit ? visited : (vint)(0);
+      limited = limited | (cut & lit);
+    }
+#endif
+    const float4 f0 = material->f0, power = light->power;
+    const float scale = material->intensity;
+    sum.x += ratio.x * fma(lobe.specular, (vfloat)(f0.x), lobe.schlick * (1.0f - f0.x)) * (scale * power.x);
+    sum.y += ratio.y * fma(lobe.specular, (vfloat)(f0.y), lobe.schlick * (1.0f - f0.y)) * (scale * power.y);
+    sum.z += ratio.z * fma(lobe.specular, (vfloat)(f0.z), lobe.schlick * (1.0f - f0.z)) * (scale * power.z);
+#if DIFFUSE
+    sum.x = fma(lobe.cosine, (vfloat)(material->albedo.x * power.x * INV_PI), sum.x);
+    sum.y = fma(lobe.cosine, (vfloat)(material->albedo.y * power.y * INV_PI), sum.y);
+    sum.z = fma(lobe.cosine, (vfloat)(material->albedo.z * power.z * INV_PI), sum.z);
+#endif
+  }
+  storeFloat(sum.x, radiance, entry);
+  storeFloat(sum.y, radiance, stride + entry);
+  storeFloat(sum.z, radiance, 2 * stride + entry);
+#if COUNT_CELLS
+  storeUint(bitsToUint(cells) | (limited ? (vuint)(0x80000000u) : (vuint)(0u)), cell_counts, entry);
+#endif
+}
