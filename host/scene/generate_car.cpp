@@ -1,8 +1,212 @@
+// A rounded saloon car of smooth panels: body with fenders and wheel arches, cabin with windows,
+// wheels, bumpers and lamps on a studio floor. x is forwards, lengths are metres.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
 #include "host/scene/generators.h"
 #include "host/scene/mesh_builder.h"
 
 namespace glintmark {
-MeshMaker readCar(SceneTable& mesh) {
-  return readPlane(mesh);
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kHalfLength = 2.45;
+constexpr double kAxle = 1.48;  // wheels stand at x = +-kAxle
+constexpr double kWheelRadius = 0.34;
+constexpr double kArchRadius = 0.43;
+constexpr double kTrack = 0.80;  // middle of a tyre
+
+double square(double x) {
+  return x * x;
 }
+double bell(double x, double width) {
+  return std::exp(-square(x / width));
+}
+
+/// Point of the unit superellipse |y|^n + |z|^n = 1 at polar angle `angle`.
+glm::dvec2 superellipse(double angle, double n) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return glm::dvec2(c, s) / std::pow(std::pow(std::abs(c), n) + std::pow(std::abs(s), n), 1 / n);
+}
+
+/// Where a section of the body begins to close towards nose and tail: 1 amidships, 0 at the ends.
+double closing(double x, double half_length, double power) {
+  return std::sqrt(std::max(0.0, 1 - std::pow(std::abs(x) / half_length, power)));
+}
+
+/// x along the body, denser where nose and tail bend.
+double bodyX(double s) {
+  return kHalfLength * std::sin(0.5 * kPi * (2 * s - 1));
+}
+
+struct BodySection {
+  double half_width, bottom, top;
+};
+
+BodySection bodySection(double x) {
+  constexpr double kMiddle = 0.56, kSill = 0.24;
+  const double close = closing(x, kHalfLength, 14);
+  const double hood = glm::smoothstep(0.7, 2.4, x), boot = glm::smoothstep(1.0, 2.4, -x);
+  const double top = 0.96 - 0.17 * hood - 0.12 * boot;
+  const double wheel_bulge = 0.05 * (bell(x - kAxle, 0.6) + bell(x + kAxle, 0.65));
+  const double plan = 0.80 + 0.20 * closing(x, kHalfLength * 1.02, 5);
+  return {(0.86 + wheel_bulge) * plan, kMiddle - (kMiddle - kSill) * close,
+          kMiddle + (top - kMiddle) * close};
+}
+
+/// Height below which the wheel arches cut the body away.
+double archHeight(double x) {
+  const double dx = std::min(std::abs(x - kAxle), std::abs(x + kAxle));
+  return dx < kArchRadius ? kWheelRadius + std::sqrt(square(kArchRadius) - square(dx)) : 0;
+}
+
+constexpr double kBodySquareness = 4.5;
+
+glm::dvec3 bodyPoint(double s, double t) {
+  const double x = bodyX(s);
+  const BodySection section = bodySection(x);
+  const double height = section.top - section.bottom;
+  // The section starts at the sill, or where the arch cuts it; superellipse() inverted at y.
+  const double cut =
+      std::clamp((archHeight(x) - section.bottom) / std::max(height, 1e-6), 0.0, 0.95);
+  const double start =
+      std::atan(cut / std::pow(1 - std::pow(cut, kBodySquareness), 1 / kBodySquareness));
+  const double angle = glm::mix(start, kPi - start, t);
+  const glm::dvec2 unit = superellipse(angle, kBodySquareness);
+  glm::dvec3 p(x, section.bottom + height * unit.y, section.half_width * unit.x);
+
+  // Fenders stand above hood and boot, the hood has a ridge, the flanks a crease at half height.
+  const double upper = square(unit.y), across = std::abs(unit.x);
+  const double front = glm::smoothstep(0.3, 1.1, x) * bell(x - 1.5, 1.1);
+  const double rear = glm::smoothstep(0.5, 1.3, -x) * bell(x + 1.55, 1.0);
+  p.y += upper * bell(across - 0.80, 0.22) * (0.085 * front + 0.06 * rear);
+  p.y += upper * bell(across, 0.28) * 0.045 * glm::smoothstep(0.6, 1.4, x) * bell(x - 1.5, 0.9);
+  p.z *= 1 + 0.022 * bell(p.y - 0.62, 0.06) - 0.05 * square(std::max(0.0, 0.5 - p.y) / 0.3);
+  return p;
+}
+
+constexpr double kCabinMiddle = -0.32, kCabinHalfLength = 1.42;
+constexpr double kBelt = 0.90, kCabinHeight = 0.53;
+
+glm::dvec3 cabinPoint(double s, double t) {
+  // Upright at the back, raked at the front.
+  const double along = std::sin(0.5 * kPi * (2 * s - 1));
+  const double x = kCabinMiddle + kCabinHalfLength * along;
+  const double close = closing(along, 1, along > 0 ? 2.3 : 2.9);
+  const glm::dvec2 unit = superellipse(kPi * glm::mix(0.0, 1.0, t), 3.6);
+  const double half_width = 0.74 * (0.86 + 0.14 * closing(along, 1.01, 4));
+  const double height = kCabinHeight * close * unit.y;
+  return {x, kBelt + height, half_width * unit.x * (1 - 0.30 * height / kCabinHeight)};
+}
+
+/// Windows in the cabin's own (s, t): bounded by grid lines, so that their edges are clean.
+bool isWindow(double s, double t) {
+  const double from_side = std::min(t, 1 - t);
+  if (from_side > 0.055 && from_side < 0.215) {  // doors: two panes and a pillar each
+    return (s > 0.235 && s < 0.475) || (s > 0.50 && s < 0.735);
+  }
+  const bool between_pillars = from_side > 0.275;
+  return between_pillars && ((s > 0.80 && s < 0.955) || (s > 0.06 && s < 0.185));
+}
+
+glm::dvec3 onWheel(const glm::dvec3& hub, double side, double r, double angle, double out) {
+  return hub + glm::dvec3(r * std::cos(angle), r * std::sin(angle), side * out);
+}
+
+void addWheel(MeshBuilder& builder, double x, double side) {
+  const glm::dvec3 hub(x, kWheelRadius, side * kTrack);
+  const auto turn = [side](double s) { return -side * 2 * kPi * s; };
+  builder.addPatch(
+      builder.part("tyre"), 96, 32,
+      [=](double s, double t) {
+        const glm::dvec2 ring = superellipse(2 * kPi * t, 3.5);
+        const double r = kWheelRadius - 0.065 + 0.065 * ring.y;
+        return SurfacePoint{onWheel(hub, side, r, turn(s), -0.105 * ring.x)};
+      },
+      UvLayout::kArcLength);
+  builder.addPatch(
+      builder.part("rim"), 96, 20,
+      [=](double s, double t) {
+        // A hub cap: a dome in a dished ring.
+        const double r = glm::mix(0.225, 0.004, t);
+        const double out = 0.075 - 0.05 * bell(r - 0.16, 0.045) + 0.03 * bell(r, 0.09);
+        return SurfacePoint{onWheel(hub, side, r, turn(s), out)};
+      },
+      UvLayout::kArcLength);
+}
+
+void addBumper(MeshBuilder& builder, double end) {
+  builder.addPatch(
+      builder.part("chrome"), 100, 16,
+      [end](double s, double t) {
+        // A bent tube that follows the nose; its ends turn back along the flanks.
+        const double a = 1.5 * (2 * s - 1);
+        const glm::dvec3 spine(kHalfLength - 0.28 + 0.36 * std::pow(std::cos(a), 0.45), 0.46,
+                               0.90 * std::sin(a));
+        const glm::dvec3 outwards = glm::normalize(glm::dvec3(std::cos(a) + 0.05, 0, std::sin(a)));
+        const glm::dvec2 ring = superellipse(2 * kPi * t, 2.6);
+        const glm::dvec3 p = spine + outwards * (0.04 * ring.x) + glm::dvec3(0, 0.075 * ring.y, 0);
+        return SurfacePoint{{end * p.x, p.y, -end * p.z}};
+      },
+      UvLayout::kArcLength);
+}
+
+void addLamp(MeshBuilder& builder, double end, double side) {
+  builder.addPatch(
+      builder.part("lamp"), 32, 16,
+      [=](double s, double t) {
+        const double a = -end * side * 2 * kPi * s, bend = 0.5 * kPi * glm::mix(1.0, 0.02, t);
+        const double r = 0.105 * std::sin(bend);
+        return SurfacePoint{{end * (2.38 + 0.09 * std::cos(bend)), 0.685 + r * std::sin(a),
+                             side * (0.62 + r * std::cos(a) * end * side * end)}};
+      },
+      UvLayout::kArcLength);
+}
+
+void addUnderbody(MeshBuilder& builder) {
+  builder.addPatch(
+      builder.part("underbody"), 40, 24,
+      [](double s, double t) {
+        const glm::dvec2 ring = superellipse(2 * kPi * t, 6);
+        return SurfacePoint{{2.2 * (2 * s - 1), 0.50 + 0.28 * ring.y, 0.66 * ring.x}};
+      },
+      UvLayout::kArcLength);
+}
+
+}  // namespace
+
+MeshMaker readCar(SceneTable& mesh) {
+  const double detail = mesh.number("detail", 1, {0.05, 4});
+  const double floor_size = mesh.number("floor_size", 60, kPositive);
+  return [=] {
+    const auto steps = [detail](int n) {
+      return std::max(4, static_cast<int>(std::lround(n * detail)));
+    };
+    MeshBuilder builder;
+    builder.addPatch(
+        builder.part("body"), steps(780), steps(260),
+        [](double s, double t) { return SurfacePoint{bodyPoint(s, t)}; }, UvLayout::kArcLength);
+    const std::uint32_t roof = builder.part("roof"), window = builder.part("window");
+    builder.addPatch([=](double s, double t) { return isWindow(s, t) ? window : roof; }, steps(290),
+                     steps(200), [](double s, double t) { return SurfacePoint{cabinPoint(s, t)}; },
+                     UvLayout::kArcLength);
+    for (const double end : {1.0, -1.0}) {
+      addBumper(builder, end);
+      for (const double side : {1.0, -1.0}) {
+        addWheel(builder, end * kAxle, side);
+        addLamp(builder, end, side);
+      }
+    }
+    addUnderbody(builder);
+    builder.addPatch(
+        builder.part("floor"), 16, 16,
+        [=](double s, double t) {
+          return SurfacePoint{{(s - 0.5) * floor_size, 0, (0.5 - t) * floor_size}};
+        },
+        UvLayout::kArcLength);
+    return builder.finish();
+  };
+}
+
 }  // namespace glintmark

@@ -85,6 +85,15 @@ void MeshBuilder::addVertices(int columns, int rows, const Surface& surface) {
   });
 }
 
+namespace {
+
+/// Whole uv units by which patch number `patch` is moved; small, so that uvs stay precise.
+glm::dvec2 chartOffset(int patch) {
+  return {(patch * 37) % 101, (patch * 53) % 103};
+}
+
+}  // namespace
+
 void MeshBuilder::layOutByArcLength(std::size_t first, int columns, int rows) {
   TriangleMesh& mesh = built_.mesh;
   const auto at = [&](int i, int j) {
@@ -101,20 +110,21 @@ void MeshBuilder::layOutByArcLength(std::size_t first, int columns, int rows) {
           j == 0 ? 0 : mesh.uvs[at(i, j - 1)].y + distance(at(i, j - 1), at(i, j));
     }
   }
+  const glm::dvec2 offset = chartOffset(arc_length_patches_++);
   // Each line starts at the middle of the patch: the shear that unequal lines bring is halved.
   for (int j = 0; j <= rows; ++j) {
-    const double middle = mesh.uvs[at(columns / 2, j)].x;
+    const double middle = mesh.uvs[at(columns / 2, j)].x - offset.x;
     for (int i = 0; i <= columns; ++i) mesh.uvs[at(i, j)].x -= middle;
   }
   for (int i = 0; i <= columns; ++i) {
-    const double middle = mesh.uvs[at(i, rows / 2)].y;
+    const double middle = mesh.uvs[at(i, rows / 2)].y - offset.y;
     for (int j = 0; j <= rows; ++j) mesh.uvs[at(i, j)].y -= middle;
   }
 }
 
 PartMesh MeshBuilder::finish() {
   PartMesh result = std::move(built_);
-  built_ = {};
+  *this = {};
   return result;
 }
 

@@ -19,7 +19,8 @@ using Surface = std::function<SurfacePoint(double s, double t)>;
 
 enum class UvLayout {
   kFromSurface,  // the surface gives uv
-  kArcLength,    // uv in scene units: lengths along the grid lines from the patch's middle lines
+  kArcLength,    // uv in scene units: lengths along the grid lines from the patch's middle lines,
+                 // moved by whole units so that equal patches do not sparkle alike
 };
 
 class MeshBuilder {
@@ -44,6 +45,7 @@ class MeshBuilder {
   void layOutByArcLength(std::size_t first, int columns, int rows);
 
   PartMesh built_;
+  int arc_length_patches_ = 0;
 };
 
 }  // namespace glintmark
