@@ -1,0 +1,213 @@
+#include "host/raster/pixel_attributes.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "host/raster/pixel_attributes.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "host/raster/frame_packing-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace glintmark::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using F64 = hn::ScalableTag<double>;
+using I64 = hn::RebindToSigned<F64>;
+using U64 = hn::RebindToUnsigned<F64>;
+using F32H = hn::Rebind<float, F64>;
+using I32H = hn::Rebind<std::int32_t, F64>;
+using U32H = hn::Rebind<std::uint32_t, F64>;
+using VD = hn::Vec<F64>;
+
+// Pixels are evaluated in blocks, first into here: whole vectors, whatever the count.
+constexpr std::size_t kBlock = 64;
+struct Block {
+  alignas(64) std::uint32_t planes[kPlaneCount][kBlock];
+  alignas(64) float b1[kBlock], b2[kBlock];
+  std::uint32_t* plane(Plane p) { return planes[static_cast<std::size_t>(p)]; }
+  float* floats(Plane p) { return reinterpret_cast<float*>(plane(p)); }
+};
+
+// Reads a field of the table for the triangles of one vector of pixels.
+template <bool kOneTriangle>
+struct DoubleReader {
+  const AttributeTable& table;
+  std::uint32_t slot;
+  hn::Vec<I64> slots;
+  HWY_INLINE VD operator()(DoubleField f) const {
+    if constexpr (kOneTriangle) return hn::Set(F64(), table.field(f)[slot]);
+    return hn::GatherIndex(F64(), table.field(f), slots);
+  }
+};
+
+HWY_INLINE void storeFloat(VD value, float* to) {
+  const F64 d;
+  const VD limit = hn::Set(d, static_cast<double>(std::numeric_limits<float>::max()));
+  const F32H df;
+  hn::StoreU(hn::DemoteTo(df, hn::Max(hn::Min(value, limit), hn::Neg(limit))), df, to);
+}
+
+// uv as floor and fraction of 32 bits.
+HWY_INLINE void storeUv(VD value, std::uint32_t* whole, std::uint32_t* fraction) {
+  const F64 d;
+  const I32H di;
+  const U32H du;
+  const VD floor = hn::Floor(value);
+  hn::StoreU(hn::DemoteTo(di, floor), di, reinterpret_cast<std::int32_t*>(whole));
+  // Just below a whole number the difference rounds to 1. Adding 2^52 leaves the value in the low
+  // bits of the double.
+  const VD scaled =
+      hn::Min(hn::Mul(hn::Sub(value, floor), hn::Set(d, 4294967296.0)), hn::Set(d, 4294967295.0));
+  const auto bits = hn::BitCast(U64(), hn::Add(scaled, hn::Set(d, 4503599627370496.0)));
+  hn::StoreU(hn::TruncateTo(du, bits), du, fraction);
+}
+
+HWY_INLINE VD clampUnit(VD b) {
+  const F64 d;
+  return hn::Max(hn::Min(b, hn::Set(d, 1.0)), hn::Zero(d));
+}
+
+// One vector of pixels: everything in double precision.
+template <bool kOneTriangle>
+HWY_INLINE void evaluateVector(const DoubleReader<kOneTriangle>& read, hn::Vec<I32H> pixel,
+                               PlaneMask mask, std::size_t at, Block& block) {
+  const F64 d;
+  const I32H di;
+  const F32H df;
+  const VD x = hn::PromoteTo(d, hn::And(pixel, hn::Set(di, 0xFFFF)));
+  const VD y = hn::PromoteTo(d, hn::ShiftRight<16>(pixel));
+  const auto linear = [&](VD constant, VD dx, VD dy) HWY_ATTR {
+    return hn::Add(hn::Add(constant, hn::Mul(dx, x)), hn::Mul(dy, y));
+  };
+  const VD q_dx = read(kQdx), q_dy = read(kQdy);
+  const VD q = hn::Max(linear(read(kQ), q_dx, q_dy), read(kQMin));
+  const VD t = hn::Div(hn::Set(d, 1.0), q);
+  const VD g1_dx = read(kG1dx), g1_dy = read(kG1dy), g2_dx = read(kG2dx), g2_dy = read(kG2dy);
+  // A centre that only rounding to sub-pixels puts inside gets the attributes of the border.
+  const VD b1 = clampUnit(hn::Mul(linear(read(kG1), g1_dx, g1_dy), t));
+  const VD b2 = clampUnit(hn::Mul(linear(read(kG2), g2_dx, g2_dy), t));
+  hn::StoreU(hn::DemoteTo(df, b1), df, block.b1 + at);
+  hn::StoreU(hn::DemoteTo(df, b2), df, block.b2 + at);
+  if (mask.has(Plane::kDepth)) storeFloat(t, block.floats(Plane::kDepth) + at);
+
+  const VD du1 = read(kDu1), dv1 = read(kDv1), du2 = read(kDu2), dv2 = read(kDv2);
+  const auto mix = [](VD p, VD s, VD r, VD w)
+                       HWY_ATTR { return hn::Add(hn::Mul(p, s), hn::Mul(r, w)); };
+  storeUv(hn::Add(read(kU0), mix(b1, du1, b2, du2)), block.plane(Plane::kUInt) + at,
+          block.plane(Plane::kUFrac) + at);
+  storeUv(hn::Add(read(kV0), mix(b1, dv1, b2, dv2)), block.plane(Plane::kVInt) + at,
+          block.plane(Plane::kVFrac) + at);
+
+  // Quotient rule on b = g / q.
+  const auto derivative = [&](VD g, VD b, VD dq)
+                              HWY_ATTR { return hn::Mul(hn::Sub(g, hn::Mul(b, dq)), t); };
+  const VD b1_dx = derivative(g1_dx, b1, q_dx), b2_dx = derivative(g2_dx, b2, q_dx);
+  const VD b1_dy = derivative(g1_dy, b1, q_dy), b2_dy = derivative(g2_dy, b2, q_dy);
+  storeFloat(mix(b1_dx, du1, b2_dx, du2), block.floats(Plane::kDudx) + at);
+  storeFloat(mix(b1_dx, dv1, b2_dx, dv2), block.floats(Plane::kDvdx) + at);
+  storeFloat(mix(b1_dy, du1, b2_dy, du2), block.floats(Plane::kDudy) + at);
+  storeFloat(mix(b1_dy, dv1, b2_dy, dv2), block.floats(Plane::kDvdy) + at);
+}
+
+template <class V>
+HWY_INLINE bool allSame(V slots, std::int32_t first) {
+  const hn::DFromV<V> d;
+  return hn::AllTrue(d, hn::Eq(slots, hn::Set(d, first)));
+}
+
+HWY_INLINE void evaluateBarycentrics(const AttributeTable& table, const std::int32_t* slots,
+                                     const std::int32_t* pixels, std::size_t count, PlaneMask mask,
+                                     Block& block) {
+  const I32H di;
+  for (std::size_t i = 0; i < count; i += hn::Lanes(di)) {
+    const auto pixel = hn::LoadU(di, pixels + i);
+    const auto slot = hn::LoadU(di, slots + i);
+    const auto first = static_cast<std::uint32_t>(slots[i]);
+    const auto wide = hn::PromoteTo(I64(), slot);
+    if (allSame(slot, slots[i]))
+      evaluateVector(DoubleReader<true>{table, first, wide}, pixel, mask, i, block);
+    else
+      evaluateVector(DoubleReader<false>{table, first, wide}, pixel, mask, i, block);
+  }
+}
+
+template <bool kOneTriangle>
+HWY_INLINE void packVector(const AttributeTable& table, const std::int32_t* slots, std::size_t i,
+                           Block& block) {
+  const FrameF d;
+  const FrameU du;
+  const auto slot = hn::LoadU(FrameI(), slots + i);
+  const auto read = [&](std::size_t field) HWY_ATTR {
+    if constexpr (kOneTriangle) return hn::Set(d, table.field(field)[slots[i]]);
+    return hn::GatherIndex(d, table.field(field), slot);
+  };
+  const auto b1 = hn::Load(d, block.b1 + i), b2 = hn::Load(d, block.b2 + i);
+  const auto interpolate = [&](std::size_t field) HWY_ATTR {
+    return hn::Add(hn::Add(read(field), hn::Mul(b1, read(field + 3))),
+                   hn::Mul(b2, read(field + 6)));
+  };
+  const FrameVector normal{interpolate(kNormal0), interpolate(kNormal0 + 1),
+                           interpolate(kNormal0 + 2)};
+  const FrameVector tangent{interpolate(kTangent0), interpolate(kTangent0 + 1),
+                            interpolate(kTangent0 + 2)};
+  const auto mirrored = kOneTriangle ? hn::Set(du, table.mirrored[slots[i]])
+                                     : hn::GatherIndex(du, table.mirrored, slot);
+  hn::Vec<FrameU> frame0, frame1;
+  packFrames(normal, tangent, mirrored, frame0, frame1);
+  hn::Store(frame0, du, block.plane(Plane::kFrame0) + i);
+  hn::Store(frame1, du, block.plane(Plane::kFrame1) + i);
+}
+
+HWY_INLINE void evaluateFrames(const AttributeTable& table, const std::int32_t* slots,
+                               std::size_t count, Block& block) {
+  const FrameI di;
+  for (std::size_t i = 0; i < count; i += hn::Lanes(di)) {
+    if (allSame(hn::LoadU(di, slots + i), slots[i]))
+      packVector<true>(table, slots, i, block);
+    else
+      packVector<false>(table, slots, i, block);
+  }
+}
+
+void writeAll(const AttributeTable& table, const TilePixels& pixels, std::uint32_t first,
+              std::uint32_t count, std::size_t entry, const PixelPlanes& out) {
+  const bool with_frame = out.mask.has(Plane::kFrame0) || out.mask.has(Plane::kFrame1);
+  const bool with_attributes = !(out.mask == PlaneMask{Plane::kPixel});
+  Block block;
+  for (std::uint32_t done = 0; done < count; done += kBlock) {
+    const std::size_t n = std::min<std::size_t>(kBlock, count - done);
+    const std::uint32_t* pixel = pixels.pixels + first + done;
+    const auto* slots = reinterpret_cast<const std::int32_t*>(pixels.slots + first + done);
+    if (with_attributes)
+      evaluateBarycentrics(table, slots, reinterpret_cast<const std::int32_t*>(pixel), n, out.mask,
+                           block);
+    if (with_frame) evaluateFrames(table, slots, n, block);
+
+    for (std::size_t p = 0; p < kPlaneCount; ++p) {
+      const auto plane = static_cast<Plane>(p);
+      if (!out.mask.has(plane)) continue;
+      const std::uint32_t* from = plane == Plane::kPixel ? pixel : block.planes[p];
+      std::memcpy(out.plane(plane).data() + entry + done, from, n * sizeof(std::uint32_t));
+    }
+  }
+}
+
+}  // namespace glintmark::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace glintmark {
+
+HWY_EXPORT(writeAll);
+
+void writeAttributes(const AttributeTable& table, const TilePixels& pixels, std::uint32_t first,
+                     std::uint32_t count, std::size_t entry, const PixelPlanes& out) {
+  HWY_DYNAMIC_DISPATCH(writeAll)(table, pixels, first, count, entry, out);
+}
+
+}  // namespace glintmark
+#endif
