@@ -23,13 +23,15 @@ typedef float16 probe_float;
 __kernel void probeTypeSizes(__global uint* out) {
   out[0] = (uint)sizeof(GlintMaterial);
   out[1] = (uint)sizeof(ConeLight);
-  out[2] = (uint)sizeof(FrameParams);
+  out[2] = (uint)sizeof(LightParams);
+  out[3] = (uint)sizeof(FrameParams);
 }
 
 // Byte offsets of members that follow a change of alignment. One work-item.
 __kernel void probeTypeOffsets(__global uint* out) {
   GlintMaterial material;
   ConeLight light;
+  LightParams ready_light;
   FrameParams params;
   out[0] = OFFSET_OF(material, alpha_l);
   out[1] = OFFSET_OF(material, density);
@@ -37,8 +39,10 @@ __kernel void probeTypeOffsets(__global uint* out) {
   out[3] = OFFSET_OF(material, f0);
   out[4] = OFFSET_OF(material, palette);
   out[5] = OFFSET_OF(light, irradiance);
-  out[6] = OFFSET_OF(params, light_count);
-  out[7] = OFFSET_OF(params, plane_stride);
+  out[6] = OFFSET_OF(ready_light, variance);
+  out[7] = OFFSET_OF(ready_light, tap_count);
+  out[8] = OFFSET_OF(params, light_count);
+  out[9] = OFFSET_OF(params, plane_stride);
 }
 
 // Twelve chains: two FMA ports of four cycles' latency need eight, and with the two constants

@@ -72,13 +72,13 @@ DiskCache DiskCache::fromEnvironment() {
   return cache;
 }
 
-fs::path DiskCache::entryPath(const std::string& key) const {
-  return folder_ / fmt::format("{:016x}.bin", fnv1a(key));
+fs::path DiskCache::entryPath(const std::string& name) const {
+  return folder_ / fmt::format("{:016x}.bin", fnv1a(name));
 }
 
-std::optional<std::string> DiskCache::load(const std::string& key) const {
+std::optional<std::string> DiskCache::load(const std::string& name, const std::string& key) const {
   if (folder_.empty()) return std::nullopt;
-  std::ifstream file(entryPath(key), std::ios::binary);
+  std::ifstream file(entryPath(name), std::ios::binary);
   const std::string entry{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 
   EntryReader reader(entry);
@@ -91,7 +91,8 @@ std::optional<std::string> DiskCache::load(const std::string& key) const {
   return std::string(binary);
 }
 
-void DiskCache::store(const std::string& key, const std::string& binary) const {
+void DiskCache::store(const std::string& name, const std::string& key,
+                      const std::string& binary) const {
   if (folder_.empty() || binary.empty()) return;
   std::string entry(kMagic);
   append(entry, key.size());
@@ -102,18 +103,13 @@ void DiskCache::store(const std::string& key, const std::string& binary) const {
 
   std::error_code error;
   fs::create_directories(folder_, error);
-  const fs::path path = entryPath(key);
+  const fs::path path = entryPath(name);
   const fs::path temporary = path.string() + fmt::format(".{}.tmp", ::getpid());
   std::ofstream file(temporary, std::ios::binary);
   file.write(entry.data(), static_cast<std::streamsize>(entry.size()));
   file.close();
   if (file) fs::rename(temporary, path, error);
   if (!file || error) fs::remove(temporary, error);
-}
-
-void DiskCache::remove(const std::string& key) const {
-  std::error_code error;
-  if (!folder_.empty()) fs::remove(entryPath(key), error);
 }
 
 }  // namespace glintmark

@@ -67,49 +67,43 @@ struct ProgramCache::Impl {
     }
   }
 
-  Program build(const std::string& file, const std::string& options);
+  Program build(const std::string& file, const std::string& own_options);
 
   DeviceInfo info;
   Device::Impl device;
   std::string folder = kernelFolder();
   DiskCache disk = DiskCache::fromEnvironment();
-  std::map<std::string, std::shared_ptr<BuiltProgram>> memory;  // by disk key
+  std::map<std::string, std::shared_ptr<BuiltProgram>> memory;  // by key
 };
 
-Program ProgramCache::Impl::build(const std::string& file, const std::string& user_options) {
+Program ProgramCache::Impl::build(const std::string& file, const std::string& own_options) {
   const auto start = std::chrono::steady_clock::now();
   if (!fs::is_regular_file(fs::path(folder) / file))
     throw Error(fmt::format("kernel file '{}' is not in the kernel folder '{}'", file, folder));
 
-  std::string options = user_options + " -cl-std=CL1.2";
+  std::string options = own_options + " -cl-std=CL1.2";
   if (info.correctly_rounded_divide_sqrt) options += " -cl-fp32-correctly-rounded-divide-sqrt";
   const std::uint64_t hash = hashKernels(folder);
+  const std::string name = fmt::format("{}\n{}\n{}\n{}\n", file, options, info.name, info.platform);
   const std::string key =
-      fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{:016x}\n", file, options, info.name, info.platform,
-                  info.platform_version, info.driver_version, hash);
+      fmt::format("{}{}\n{}\n{:016x}\n", name, info.platform_version, info.driver_version, hash);
   auto program = std::make_shared<Program::Impl>();
-  if (const auto it = memory.find(key); it != memory.end()) {
-    program->built = it->second;
-    return Program(program);
-  }
+  program->built = memory[key];
+  if (program->built) return Program(program);
 
   const IncludePath include(folder);
   options += " -I " + include.path();
   std::optional<cl::Program> built;
-  if (const auto binary = disk.load(key)) {
-    built = buildFromBinary(device, *binary, options);
-    program->from_disk_cache = built.has_value();
-  }
-  if (!built) {
-    built = buildFromSource(file, options, hash);
-  }
+  if (const auto binary = disk.load(name, key)) built = buildFromBinary(device, *binary, options);
+  program->from_disk_cache = built.has_value();
+  if (!built) built = buildFromSource(file, options, hash);
   program->built = std::make_shared<BuiltProgram>(
       BuiltProgram{*built, device.device, device.queue, file, options, {}});
   memory[key] = program->built;
   program->build_ns =
       std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count();
   // After the clock has stopped: asking PoCL for a binary compiles every kernel once more.
-  if (!program->from_disk_cache) disk.store(key, programBinary(*built));
+  if (!program->from_disk_cache) disk.store(name, key, programBinary(*built));
   return Program(program);
 }
 
