@@ -98,7 +98,7 @@ class ArcadeBuilder {
 
   void addColumn(double side, double base, double x) {
     const double z = kCourtHalfWidth + kWallThickness / 2;
-    add("column", 36, 48, side, [=](double s, double t) {
+    add("column", 30, 37, side, [=](double s, double t) {
       const double a = -2 * kPi * s, y = kSpringing * t;
       // Two rings at the foot, a swelling shaft, a bell capital with its ring.
       const double foot = 0.12 * std::exp(-std::pow(y / 0.14, 4)) +

@@ -14,8 +14,9 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kHalfLength = 2.45;
 constexpr double kAxle = 1.48;  // wheels stand at x = +-kAxle
 constexpr double kWheelRadius = 0.34;
-constexpr double kArchRadius = 0.43;
-constexpr double kTrack = 0.80;  // middle of a tyre
+constexpr double kArchHalfWidth = 0.55;
+constexpr double kArchHeight = 0.51;  // above the sill
+constexpr double kTrack = 0.77;       // middle of a tyre
 
 double square(double x) {
   return x * x;
@@ -48,17 +49,18 @@ BodySection bodySection(double x) {
   constexpr double kMiddle = 0.56, kSill = 0.24;
   const double close = closing(x, kHalfLength, 14);
   const double hood = glm::smoothstep(0.7, 2.4, x), boot = glm::smoothstep(1.0, 2.4, -x);
-  const double top = 0.96 - 0.17 * hood - 0.12 * boot;
+  const double top = 0.96 - 0.11 * hood - 0.12 * boot;
   const double wheel_bulge = 0.05 * (bell(x - kAxle, 0.6) + bell(x + kAxle, 0.65));
   const double plan = 0.80 + 0.20 * closing(x, kHalfLength * 1.02, 5);
   return {(0.86 + wheel_bulge) * plan, kMiddle - (kMiddle - kSill) * close,
           kMiddle + (top - kMiddle) * close};
 }
 
-/// Height below which the wheel arches cut the body away.
-double archHeight(double x) {
-  const double dx = std::min(std::abs(x - kAxle), std::abs(x + kAxle));
-  return dx < kArchRadius ? kWheelRadius + std::sqrt(square(kArchRadius) - square(dx)) : 0;
+/// Height of the wheel arches above the sill: flat-topped, and nowhere so steep that a panel's grid
+/// would tear.
+double archRise(double x) {
+  const double dx = std::min(std::abs(x - kAxle), std::abs(x + kAxle)) / kArchHalfWidth;
+  return dx < 1 ? kArchHeight * (1 - std::pow(dx, 2.6)) : 0;
 }
 
 constexpr double kBodySquareness = 4.5;
@@ -67,12 +69,13 @@ glm::dvec3 bodyPoint(double s, double t) {
   const double x = bodyX(s);
   const BodySection section = bodySection(x);
   const double height = section.top - section.bottom;
-  // The section starts at the sill, or where the arch cuts it; superellipse() inverted at y.
-  const double cut =
-      std::clamp((archHeight(x) - section.bottom) / std::max(height, 1e-6), 0.0, 0.95);
+  // The section starts where the arch cuts it: superellipse() inverted at that height. Only the
+  // panel's lower part gives way, so that the grid above stays straight.
+  const double cut = std::min(archRise(x) / std::max(height, 1e-6), 0.95);
   const double start =
       std::atan(cut / std::pow(1 - std::pow(cut, kBodySquareness), 1 / kBodySquareness));
-  const double angle = glm::mix(start, kPi - start, t);
+  const double near_side = std::max(0.0, 1 - 2 * t), far_side = std::max(0.0, 2 * t - 1);
+  const double angle = kPi * t + start * (near_side * near_side - far_side * far_side);
   const glm::dvec2 unit = superellipse(angle, kBodySquareness);
   glm::dvec3 p(x, section.bottom + height * unit.y, section.half_width * unit.x);
 
@@ -86,7 +89,7 @@ glm::dvec3 bodyPoint(double s, double t) {
   return p;
 }
 
-constexpr double kCabinMiddle = -0.32, kCabinHalfLength = 1.42;
+constexpr double kCabinMiddle = -0.52, kCabinHalfLength = 1.42;
 constexpr double kBelt = 0.90, kCabinHeight = 0.53;
 
 glm::dvec3 cabinPoint(double s, double t) {
@@ -169,7 +172,7 @@ void addUnderbody(MeshBuilder& builder) {
       builder.part("underbody"), 40, 24,
       [](double s, double t) {
         const glm::dvec2 ring = superellipse(2 * kPi * t, 6);
-        return SurfacePoint{{2.2 * (2 * s - 1), 0.50 + 0.28 * ring.y, 0.66 * ring.x}};
+        return SurfacePoint{{2.0 * (2 * s - 1), 0.47 + 0.24 * ring.y, 0.62 * ring.x}};
       },
       UvLayout::kArcLength);
 }

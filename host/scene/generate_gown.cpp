@@ -16,11 +16,12 @@ constexpr double kWaistHeight = 1.02;
 constexpr double kTopHeight = 1.40;
 constexpr double kHemRadius = 0.80;
 constexpr double kWaistRadius = 0.125;
+constexpr glm::dvec2 kHemOval(1.2, 0.9);  // the hem's width and depth over its radius
 constexpr std::uint32_t kFoldSeed = 41;
 
 /// Radius of the skirt without folds; `fall` is 0 at the waist and 1 at the hem. Flares at the hip.
 double skirtRadius(double fall) {
-  const double hip = 0.10 * std::sin(kPi * std::min(1.0, 1.15 * fall));
+  const double hip = 0.05 * std::sin(kPi * std::min(1.0, 1.15 * fall));
   return glm::mix(kWaistRadius, kHemRadius, fall) + hip;
 }
 
@@ -97,7 +98,7 @@ MeshMaker readGown(SceneTable& mesh) {
   const int columns = mesh.integer("columns", 400, 8, 8192);
   const int rows = mesh.integer("rows", 95, 4, 8192);
   const double folds = mesh.integer("folds", 17, 0, 200);
-  const double depth = mesh.number("fold_depth", 0.05, {0, 0.3});
+  const double depth = mesh.number("fold_depth", 0.04, {0, 0.3});
   return [=] {
     MeshBuilder builder;
     const SkirtChart chart;
@@ -106,8 +107,10 @@ MeshMaker readGown(SceneTable& mesh) {
     builder.addPatch(builder.part("skirt"), columns, rows, [&](double s, double t) {
       const double angle = angle_of(s), fall = 1 - t;
       const double r = skirtRadius(fall) + foldDepth(angle, fall, folds, depth);
-      return SurfacePoint{{r * std::sin(angle), kWaistHeight * t, r * std::cos(angle)},
-                          chart.uv(angle, fall)};
+      const glm::dvec2 oval = glm::mix(glm::dvec2(1), kHemOval, fall);
+      return SurfacePoint{
+          {oval.x * r * std::sin(angle), kWaistHeight * t, oval.y * r * std::cos(angle)},
+          chart.uv(angle, fall)};
     });
     builder.addPatch(builder.part("bodice"), columns, std::max(1, rows * 5 / 19),
                      [&](double s, double t) { return bodicePoint(angle_of(s), t); });

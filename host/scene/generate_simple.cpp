@@ -51,11 +51,13 @@ MeshMaker readTerrain(SceneTable& mesh) {
   return [=] {
     const auto elevation = [=](const glm::dvec2& p) {
       const double hills = height * fractalNoise(p / wavelength, 4, 0.4, seed);
+      if (ripple_height == 0 && rim_height == 0) return hills;
       // Wind ripples run along z and wander; they are sharper at the crest than in the trough.
       const double phase =
           p.x / ripple_wavelength + 1.5 * gradientNoise(p / (6 * ripple_wavelength), seed + 77);
       const double ripples = ripple_height * (1 - std::abs(std::sin(kPi * phase)));
       const double outside = std::clamp(2 * glm::length(p) / size - 0.6, 0.0, 1.0);
+      if (rim_height == 0 || outside == 0) return hills + ripples;
       const double rim = rim_height * outside * outside *
                          (1 + fractalNoise(p * (3 / wavelength), 5, 0.5, seed + 99));
       return hills + ripples + rim;
@@ -118,16 +120,22 @@ MeshMaker readKnot(SceneTable& mesh) {
       const double a = 2 * kPi * s, r = radius * (1 + 0.42 * std::cos(3 * a));
       return glm::dvec3(r * std::cos(2 * a), r * std::sin(2 * a), 0.62 * radius * std::sin(3 * a));
     };
-    return onePatch(
-        "knot", columns, rows,
-        [=](double s, double t) {
-          const glm::dvec3 along = glm::normalize(centre(s + 1e-4) - centre(s - 1e-4));
-          const glm::dvec3 outwards = centre(s) - along * glm::dot(along, centre(s));
-          const glm::dvec3 side = glm::normalize(outwards), up = glm::cross(along, side);
-          const glm::dvec3 round = std::cos(2 * kPi * t) * side + std::sin(2 * kPi * t) * up;
-          return SurfacePoint{centre(s) + thickness * round};
-        },
-        UvLayout::kArcLength);
+    constexpr int kSteps = 2000;
+    std::vector<double> length(kSteps + 1, 0);
+    for (int i = 0; i < kSteps; ++i) {
+      length[i + 1] =
+          length[i] + glm::distance(centre(1.0 * i / kSteps), centre((i + 1.0) / kSteps));
+    }
+    return onePatch("knot", columns, rows, [=](double s, double t) {
+      const glm::dvec3 along = glm::normalize(centre(s + 1e-4) - centre(s - 1e-4));
+      const glm::dvec3 outwards = centre(s) - along * glm::dot(along, centre(s));
+      const glm::dvec3 side = glm::normalize(outwards), up = glm::cross(along, side);
+      const double turn = 2 * kPi * t;
+      const int step = std::min(static_cast<int>(s * kSteps), kSteps - 1);
+      return SurfacePoint{
+          centre(s) + thickness * (std::cos(turn) * side - std::sin(turn) * up),
+          {glm::mix(length[step], length[step + 1], s * kSteps - step), -turn * thickness}};
+    });
   };
 }
 

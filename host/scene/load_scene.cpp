@@ -29,16 +29,19 @@ toml::table parseFile(const std::string& file) {
   }
 }
 
-/// Material of a part by the first rule that fits its name.
+/// Material of a part by the rule that fits its name most closely: the name itself, else the longest
+/// start of it. Material 0 if none does.
 std::uint32_t materialOf(const std::string& part, const std::vector<MeshPlan::PartRule>& rules) {
+  std::uint32_t material = 0;
+  std::size_t best = 0;
   for (const MeshPlan::PartRule& rule : rules) {
-    const bool is_prefix = rule.pattern.ends_with('*');
-    if (is_prefix ? part.starts_with(rule.pattern.substr(0, rule.pattern.size() - 1))
-                  : part == rule.pattern) {
-      return rule.material;
-    }
+    if (rule.pattern == part) return rule.material;
+    if (!rule.pattern.ends_with('*') || rule.pattern.size() <= best) continue;
+    if (!part.starts_with(rule.pattern.substr(0, rule.pattern.size() - 1))) continue;
+    material = rule.material;
+    best = rule.pattern.size();
   }
-  return 0;
+  return material;
 }
 
 void buildMesh(const MeshPlan& plan, Scene& scene) {

@@ -1,8 +1,5 @@
 #include "host/scene/noise.h"
 
-#include <cmath>
-#include <numbers>
-
 namespace glintmark {
 namespace {
 
@@ -16,11 +13,12 @@ std::uint32_t mixBits(std::uint32_t x) {
   return x;
 }
 
-/// Dot product of a lattice point's unit gradient with the offset from it.
+/// Dot product of a lattice point's gradient, uniform in [-1, 1]^2, with the offset from it.
 double cornerValue(const glm::ivec2& corner, const glm::dvec2& offset, std::uint32_t seed) {
   const auto x = static_cast<std::uint32_t>(corner.x), y = static_cast<std::uint32_t>(corner.y);
-  const double angle = hashedUniform(x, mixBits(y + mixBits(seed))) * 2 * std::numbers::pi;
-  return std::cos(angle) * offset.x + std::sin(angle) * offset.y;
+  const std::uint32_t bits = mixBits(x + mixBits(y + mixBits(seed)));
+  const double gx = (bits & 0xFFFFu) * 0x1p-15 - 1, gy = (bits >> 16) * 0x1p-15 - 1;
+  return gx * offset.x + gy * offset.y;
 }
 
 /// Blend with zero first and second derivative at both ends.
@@ -29,10 +27,6 @@ double quinticBlend(double t) {
 }
 
 }  // namespace
-
-double hashedUniform(std::uint32_t index, std::uint32_t seed) {
-  return mixBits(index + mixBits(seed + 0x9E3779B9u)) * 0x1p-32;
-}
 
 double gradientNoise(const glm::dvec2& point, std::uint32_t seed) {
   const glm::dvec2 cell = glm::floor(point);

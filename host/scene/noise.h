@@ -6,13 +6,10 @@
 
 namespace glintmark {
 
-/// Gradient noise on the unit lattice, twice differentiable, about [-0.7, 0.7], mean 0.
+/// Gradient noise on the unit lattice, twice differentiable, inside [-1, 1], mean 0.
 double gradientNoise(const glm::dvec2& point, std::uint32_t seed);
 
 /// Sum of `octaves` noises; each has twice the frequency and `gain` times the height of the last.
 double fractalNoise(const glm::dvec2& point, int octaves, double gain, std::uint32_t seed);
-
-/// Uniform in [0, 1) from an index.
-double hashedUniform(std::uint32_t index, std::uint32_t seed);
 
 }  // namespace glintmark

@@ -23,7 +23,8 @@ View orbitView(const View& base, const Orbit& orbit) {
     throw Error("an orbit's normal has no direction, expected a vector that is not 0");
   }
   const glm::dvec3 normal = orbit.normal / normal_length;
-  const glm::dvec3 reference = std::abs(normal.z) > 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1);
+  const glm::dvec3 reference =
+      std::abs(normal.z) > 0.9 ? glm::dvec3(0, -1, 0) : glm::dvec3(0, 0, 1);
   const glm::dvec3 forth = glm::normalize(reference - normal * glm::dot(normal, reference));
   const glm::dvec3 side = glm::cross(normal, forth);
   const double azimuth = glm::radians(orbit.azimuth_deg), angle = glm::radians(orbit.angle_deg);

@@ -47,7 +47,8 @@ struct View {
 
 /// `base` with its eye, target and up from `orbit`. Up turns with the angle, so that a sweep from
 /// 90 degrees down to the surface is smooth. For a normal within 25 degrees of the z axis, azimuth
-/// 0 is towards +y instead. Throws Error for a value out of the ranges above.
+/// 0 is towards -y instead, so that +y is up in the image. Throws Error for a value out of the
+/// ranges above.
 View orbitView(const View& base, const Orbit& orbit);
 
 /// [ZK16] Sect. 4.5, ready for the device, with what selects the effects.
