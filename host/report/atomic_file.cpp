@@ -99,7 +99,15 @@ void requireWritableFolder(const fs::path& folder) {
     throw Error(
         fmt::format("{} is not a folder, so results cannot be written there", folder.string()));
   }
-  const AtomicFile probe(folder / "write_test");
+  if (access(folder.c_str(), W_OK) != 0) {
+    throw Error(fmt::format("the results folder {} cannot be written: {}", folder.string(),
+                            std::strerror(errno)));
+  }
+  requireWritableFile(folder / "write_test");
+}
+
+void requireWritableFile(const fs::path& file) {
+  const AtomicFile probe(file);
 }
 
 }  // namespace glintmark

@@ -37,6 +37,10 @@ std::string readTextFile(const std::filesystem::path& path);
 /// saying what stands in the way.
 void requireWritableFolder(const std::filesystem::path& folder);
 
+/// Makes sure that `file` can be written, before work is spent on what goes into it. Throws Error
+/// like AtomicFile.
+void requireWritableFile(const std::filesystem::path& file);
+
 /// Appends `text` to a file descriptor, all of it. Throws Error naming `path`.
 void writeAll(int descriptor, std::string_view text, const std::filesystem::path& path);
 

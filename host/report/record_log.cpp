@@ -89,13 +89,21 @@ void RecordLog::append(std::span<const Record> records) {
   records_.insert(records_.end(), records.begin(), records.end());
 }
 
-const Record* RecordLog::find(const Record& key) const {
-  // The last one counts: it may have been measured again.
-  const auto found = std::find_if(records_.rbegin(), records_.rend(), [&](const Record& record) {
-    return record.table == key.table && record.case_ == key.case_ && record.metric == key.metric &&
-           record.config == key.config;
-  });
-  return found == records_.rend() ? nullptr : &*found;
+std::vector<Record> RecordLog::recordsOf(const std::string& table, const std::string& case_name,
+                                         const std::map<std::string, std::string>& config) const {
+  std::vector<Record> found;
+  for (const Record& record : records_) {
+    const bool matches = record.table == table && record.case_ == case_name &&
+                         std::ranges::includes(record.config, config);
+    if (!matches) continue;
+    const auto old = std::ranges::find(found, record.metric, &Record::metric);
+    if (old == found.end()) {
+      found.push_back(record);
+    } else {
+      *old = record;
+    }
+  }
+  return found;
 }
 
 }  // namespace glintmark

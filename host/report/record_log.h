@@ -2,6 +2,7 @@
 // measured.
 #pragma once
 #include <filesystem>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,8 +28,10 @@ class RecordLog {
   void append(std::span<const Record> records);
   /// All records of the log, old ones first.
   const std::vector<Record>& records() const { return records_; }
-  /// The record with the table, case, metric and configuration of `key`, or null.
-  const Record* find(const Record& key) const;
+  /// The latest record of each metric of a case, among those whose configuration has every entry of
+  /// `config` (and perhaps more), in the order of the log.
+  std::vector<Record> recordsOf(const std::string& table, const std::string& case_name,
+                                const std::map<std::string, std::string>& config) const;
 
  private:
   RecordLog(std::filesystem::path path, bool keep);

@@ -33,18 +33,23 @@ TEST(RecordLog, ResumeFindsByConfiguration) {
   {
     RecordLog log = RecordLog::create(folder / "a.jsonl", sampleRun());
     appendOne(log, sampleRecord("a/b", "m", 1));
+    appendOne(log, sampleRecord("a/b", "other", 7));
     appendOne(log, sampleRecord("a/b", "m", 2));
   }
   const RecordLog log = RecordLog::resume(folder / "a.jsonl", sampleRun());
-  ASSERT_EQ(log.records().size(), 2u);
-  const Record* found = log.find(sampleRecord("a/b", "m", 0));
-  ASSERT_NE(found, nullptr);
-  EXPECT_EQ(found->value.median, 2);  // the later one
-  Record other = sampleRecord("a/b", "m", 0);
-  other.config["size"] = "64x36";
-  EXPECT_EQ(log.find(other), nullptr);
-  EXPECT_EQ(log.find(sampleRecord("a/b", "other", 0)), nullptr);
-  EXPECT_EQ(log.find(sampleRecord("a/c", "m", 0)), nullptr);
+  ASSERT_EQ(log.records().size(), 3u);
+  const auto find = [&](const std::string& name, std::map<std::string, std::string> config) {
+    return log.recordsOf("zk16", name, config);
+  };
+  const std::vector<Record> found = find("a/b", {{"size", "1920x1080"}});
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].metric, "m");
+  EXPECT_EQ(found[0].value.median, 2);  // the later one
+  EXPECT_EQ(found[1].metric, "other");
+  EXPECT_TRUE(find("a/b", {{"size", "64x36"}}).empty());
+  EXPECT_TRUE(find("a/b", {{"size", "1920x1080"}, {"set", "x=1"}}).empty());
+  EXPECT_TRUE(find("a/c", {}).empty());
+  EXPECT_TRUE(log.recordsOf("tan05", "a/b", {}).empty());
 }
 
 TEST(RecordLog, CutOffLastLineIsDropped) {

@@ -1,0 +1,125 @@
+// glintmark heatmap: cells visited per pixel, of one view or over a sweep of angles. [ZK16] Fig. 9
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "host/cli/angle_sweep.h"
+#include "host/cli/command_line.h"
+#include "host/cli/count_cells.h"
+#include "host/core/error.h"
+#include "host/report/atomic_file.h"
+#include "host/report/heatmap.h"
+#include "host/report/image_io.h"
+
+namespace glintmark {
+namespace {
+
+struct HeatmapCommand {
+  std::string scene = "screen_plane", view, size;
+  std::string picture, exr, csv;
+  std::string scale = "fixed", method = "zk16";
+  bool sweep_angle = false;
+};
+
+HeatmapScale parseScale(const std::string& name) {
+  if (name == "fixed") return HeatmapScale::kFixed;
+  if (name == "auto") return HeatmapScale::kAuto;
+  throw Error(fmt::format("unknown scale '{}'; scales are fixed (8 to 64 cells) and auto", name));
+}
+
+void checkOutputs(const HeatmapCommand& command) {
+  const auto check = [](const std::string& file, const char* option, const char* extension) {
+    if (file.empty()) return;
+    if (std::filesystem::path(file).extension() != extension) {
+      throw Error(fmt::format("{} '{}' must end in {}", option, file, extension));
+    }
+    requireWritableFile(file);
+  };
+  check(command.picture, "--output", ".png");
+  check(command.exr, "--exr", ".exr");
+  check(command.csv, "--csv", ".csv");
+  if (command.sweep_angle && !command.exr.empty()) {
+    throw Error("--exr holds one view; it does not go with --sweep-angle");
+  }
+  if (!command.sweep_angle && !command.csv.empty()) {
+    throw Error("--csv holds a sweep; it needs --sweep-angle");
+  }
+}
+
+int runView(const CommonOptions& common, const HeatmapCommand& command,
+            const ShadingOptions& shading) {
+  const HeatmapScale scale = parseScale(command.scale);
+  const Scene scene = openScene(common, command.scene);
+  const View& view = scene.view(command.view.empty() ? "steep" : command.view);
+  Device device = openDevice(common);
+  const CountedCells counted = countCells(device, scene, view, shading, common.threads);
+
+  const std::string name = scene.name + "/" + view.name;
+  if (!command.picture.empty()) {
+    const Image picture = heatmapPicture(counted.cells, {.scale = scale,
+                                                         .title = name + ", cells per pixel",
+                                                         .guard_hits = counted.counts.guard_hits});
+    writePng(picture, command.picture);
+  }
+  if (!command.exr.empty()) {
+    Image cells = counted.cells;
+    cells.channel_names = {"cells"};
+    writeExr(cells, command.exr);
+  }
+  fmt::print("{} {}x{}, cells per pixel over {} glint pixels\n", name, shading.width_px,
+             shading.height_px, counted.counts.glint_px);
+  fmt::print("min {}  mean {:.3f}  max {}  guard hits {}\n", counted.counts.min,
+             counted.counts.mean, counted.counts.max, counted.counts.guard_hits);
+  fmt::print("{}", histogramText(cellDistribution(counted.cells)));
+  return kExitDone;
+}
+
+int runHeatmap(const CommonOptions& common, const HeatmapCommand& command) {
+  checkOutputs(command);
+  const char* default_size = command.sweep_angle ? "240x135" : "1920x1080";
+  const ImageSize size = parseSize(command.size.empty() ? default_size : command.size);
+  const ShadingOptions shading{.width_px = size.width_px,
+                               .height_px = size.height_px,
+                               .lanes = common.lanes,
+                               .method = parseMethod(command.method)};
+  if (!command.sweep_angle) return runView(common, command, shading);
+  return runAngleSweep(common, {.scene = command.scene,
+                                .view = command.view.empty() ? "sweep" : command.view,
+                                .shading = shading,
+                                .scale = parseScale(command.scale),
+                                .picture = command.picture,
+                                .csv = command.csv});
+}
+
+}  // namespace
+
+void addHeatmapCommand(CLI::App& app, CommandLine& line) {
+  auto options = std::make_shared<HeatmapCommand>();
+  CLI::App* command =
+      app.add_subcommand("heatmap", "Cells visited per pixel: picture, counts, histogram");
+  command->add_option("scene", options->scene, "Scene name or .toml file (default: screen_plane)")
+      ->type_name("SCENE");
+  command->add_option("-o,--output", options->picture, "False-colour picture with legend")
+      ->type_name("FILE.png");
+  command->add_option("--exr", options->exr, "Raw counts; -1 where no glint material covers")
+      ->type_name("FILE.exr");
+  command->add_option("--view", options->view, "View of the scene (default: steep; sweep: sweep)");
+  command->add_option("--size", options->size, "Image size (default: 1920x1080; sweep: 240x135)")
+      ->type_name("WxH");
+  command->add_option("--scale", options->scale, "fixed (8 to 64 cells) or auto (default: fixed)");
+  command->add_option("--method", options->method, "zk16 or exact (default: zk16)");
+  command->add_flag("--sweep-angle", options->sweep_angle,
+                    "A view that orbits a plane, from 90 to 1 degrees: picture strip and CSV");
+  command->add_option("--csv", options->csv, "Figures of the sweep, one line per angle")
+      ->type_name("FILE.csv");
+  command->footer(
+      "Examples:\n"
+      "  glintmark heatmap sponza --view grazing -o cells.png --exr cells.exr\n"
+      "  glintmark heatmap snow -o cells.png --scale auto --size 960x540\n"
+      "  glintmark heatmap --sweep-angle -o sweep.png --csv sweep.csv");
+  command->callback([options, &line] {
+    line.action = [options, &line] { return runHeatmap(line.common, *options); };
+  });
+}
+
+}  // namespace glintmark

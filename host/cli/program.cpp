@@ -1,0 +1,112 @@
+#include "host/cli/program.h"
+
+#include <fmt/format.h>
+
+#include "host/cli/command_line.h"
+#include "host/core/error.h"
+#include "host/report/run_info.h"
+
+namespace glintmark {
+namespace {
+
+constexpr const char* kDescription =
+    "glintmark measures what micro-detail shading costs and what its accuracy costs.";
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  glintmark info\n"
+    "  glintmark render sand -o sand.png --view overview --star\n"
+    "  glintmark heatmap sponza --view grazing -o cells.png\n"
+    "  glintmark bench zk16\n"
+    "Every subcommand has its own --help.\n"
+    "Exit codes: 0 done, 1 a check failed, 2 bad usage or input, 3 no usable device.";
+
+void addCommonOptions(CLI::App& app, CommonOptions& common) {
+  app.add_option("--device", common.device,
+                 "OpenCL device: its index in 'info' or part of its name")
+      ->type_name("I|NAME");
+  app.add_option("--width", common.lanes, "Lanes per work-item: 1, 4, 8 or 16 (default: device's)")
+      ->type_name("W");
+  app.add_option("--threads", common.threads, "Rasterizer threads (default: all cores)")
+      ->type_name("N")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--set", common.overrides, "Changes a value of the scene file; repeatable")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  app.add_option("--mesh", common.mesh_file, "Mesh (OBJ, glTF, PLY) in place of the scene's own")
+      ->type_name("FILE");
+  app.add_option("--assets", common.asset_folder, "Folder with the real meshes that scenes name")
+      ->type_name("FOLDER");
+  app.add_flag("--quiet", common.quiet, "No progress and no notes on stderr");
+}
+
+std::string knownOptions(const CLI::App& app, const CLI::App* command) {
+  std::string known;
+  for (const CLI::App* level : {command, &app}) {
+    if (level == nullptr) continue;
+    for (const CLI::Option* option : level->get_options()) {
+      if (option->get_positional()) continue;
+      known += fmt::format("{}{}", known.empty() ? "" : ", ", option->get_name());
+    }
+  }
+  return known;
+}
+
+std::string knownCommands(CLI::App& app) {
+  std::string known;
+  for (const CLI::App* command : app.get_subcommands(nullptr)) {
+    known += fmt::format("{}{}", known.empty() ? "" : ", ", command->get_name());
+  }
+  return known;
+}
+
+// One sentence for whatever CLI11 did not like.
+std::string explain(CLI::App& app, const CLI::ParseError& error) {
+  const std::vector<CLI::App*> chosen = app.get_subcommands();
+  const CLI::App* command = chosen.empty() ? nullptr : chosen.front();
+  for (const std::string& word : app.remaining(true)) {
+    if (word.starts_with("-")) {
+      return fmt::format("unknown option '{}'; {} knows {}", word,
+                         command ? command->get_name() : "glintmark", knownOptions(app, command));
+    }
+    if (command == nullptr) {
+      return fmt::format("unknown command '{}'; commands are {}", word, knownCommands(app));
+    }
+    return fmt::format("'{}' is one argument too many for {}", word, command->get_name());
+  }
+  if (command == nullptr && error.get_name() == "RequiredError") {
+    return fmt::format("no command given; commands are {} (see glintmark --help)",
+                       knownCommands(app));
+  }
+  return fmt::format("{} (see glintmark{}{} --help)", error.what(), command ? " " : "",
+                     command ? command->get_name() : "");
+}
+
+}  // namespace
+
+int runProgram(int argc, const char* const* argv) {
+  CommandLine line;
+  line.words.assign(argv, argv + argc);
+
+  CLI::App app(kDescription, "glintmark");
+  app.footer(kExamples);
+  app.set_version_flag("--version",
+                       fmt::format("glintmark {} ({})", GLINTMARK_VERSION, gitVersion()));
+  app.require_subcommand(1);
+  addCommonOptions(app, line.common);
+  addInfoCommand(app, line);
+  addRenderCommand(app, line);
+  addHeatmapCommand(app, line);
+  addBenchCommand(app, line);
+  for (CLI::App* command : app.get_subcommands(nullptr)) command->fallthrough();
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& help_or_version) {
+    return app.exit(help_or_version);
+  } catch (const CLI::ParseError& error) {
+    throw Error(explain(app, error));
+  }
+  return line.action();
+}
+
+}  // namespace glintmark

@@ -1,0 +1,113 @@
+// glintmark render: one picture of a scene.
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+
+#include "host/cli/command_line.h"
+#include "host/core/error.h"
+#include "host/report/aov.h"
+#include "host/report/atomic_file.h"
+#include "host/report/image_io.h"
+#include "host/report/star.h"
+#include "host/report/tonemap.h"
+
+namespace glintmark {
+namespace {
+
+struct RenderOptions {
+  std::string scene, view = "steep", output, aov_output;
+  std::string size = "1920x1080", method = "zk16";
+  bool no_glints = false;
+  std::optional<bool> star;
+  std::optional<double> exposure;
+};
+
+void printTimes(const std::string& what, const FrameTimes& raster, const FrameTimes& shading,
+                double readback_ns) {
+  fmt::print("{}: raster {:.1f} ms, upload {:.1f} ms, shading {:.1f} ms, readback {:.1f} ms\n",
+             what, raster.raster_ns * 1e-6, raster.upload_ns * 1e-6,
+             shading.shading_event_ns * 1e-6, readback_ns * 1e-6);
+}
+
+// PNG gets the scene's post effects. EXR holds radiance for measuring, with the star only on
+// demand.
+void writePicture(Image radiance, const RenderOptions& options, const PostEffects& post,
+                  const std::string& extension) {
+  const bool is_png = extension == ".png";
+  const double exposure = options.exposure.value_or(post.exposure);
+  if (options.star.value_or(is_png && post.star)) {
+    applyStar(radiance, {.threshold = 1 / exposure});  // exposed radiance 1
+  }
+  if (is_png) {
+    writePng(toneMap(radiance, {.exposure = exposure}), options.output);
+  } else {
+    writeExr(radiance, options.output);
+  }
+}
+
+int runRender(const CommonOptions& common, const RenderOptions& options) {
+  const std::string extension = requireImageExtension(options.output);
+  requireWritableFile(options.output);
+  if (!options.aov_output.empty()) {
+    if (requireImageExtension(options.aov_output) != ".exr") {
+      throw Error(
+          fmt::format("--aov '{}' must end in .exr: planes are floats", options.aov_output));
+    }
+    requireWritableFile(options.aov_output);
+  }
+  if (options.exposure && !(*options.exposure > 0)) {
+    throw Error(fmt::format("--exposure {} is not a positive number", *options.exposure));
+  }
+  const ImageSize size = parseSize(options.size);
+  ShadingOptions shading{.width_px = size.width_px,
+                         .height_px = size.height_px,
+                         .lanes = common.lanes,
+                         .method = parseMethod(options.method),
+                         .glints = !options.no_glints};
+  const Scene scene = openScene(common, options.scene);
+  const View& view = scene.view(options.view);
+  Device device = openDevice(common);
+  FrameRenderer renderer(device, scene, view, shading, common.threads);
+
+  const FrameTimes prepared = renderer.prepare();
+  const FrameTimes shaded = renderer.shade();
+  FrameTimes read;
+  Image radiance = renderer.readRadiance(&read);
+  writePicture(std::move(radiance), options, scene.post, extension);
+  if (!options.aov_output.empty()) writeExr(planesToImage(renderer.planes()), options.aov_output);
+  printTimes(fmt::format("{}/{} {}x{}", scene.name, view.name, size.width_px, size.height_px),
+             prepared, shaded, read.readback_ns);
+  return kExitDone;
+}
+
+}  // namespace
+
+void addRenderCommand(CLI::App& app, CommandLine& line) {
+  auto options = std::make_shared<RenderOptions>();
+  CLI::App* command = app.add_subcommand("render", "Renders one view of a scene to EXR or PNG");
+  command->add_option("scene", options->scene, "Scene name or .toml file")
+      ->required()
+      ->type_name("SCENE");
+  command->add_option("-o,--output", options->output, "Picture: .png tone-mapped, .exr radiance")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("--view", options->view, "View of the scene (default: steep)");
+  command->add_option("--size", options->size, "Image size (default: 1920x1080)")->type_name("WxH");
+  command->add_option("--aov", options->aov_output, "Every rasterized plane as channels of one EXR")
+      ->type_name("FILE");
+  command->add_option("--method", options->method, "zk16 or exact (default: zk16)");
+  command->add_flag("--no-glints", options->no_glints, "Smooth lobes in place of glints");
+  command->add_flag("--star,!--no-star", options->star, "Star-shaped glare (default: the scene's)");
+  command->add_option("--exposure", options->exposure, "Scale before tone mapping")->type_name("X");
+  command->footer(
+      "Examples:\n"
+      "  glintmark render snow -o snow.png --view grazing\n"
+      "  glintmark render sand -o sand.exr --star --size 3840x2160\n"
+      "  glintmark render car -o car.png --aov planes.exr --set material.paint.log_density=7");
+  command->callback([options, &line] {
+    line.action = [options, &line] { return runRender(line.common, *options); };
+  });
+}
+
+}  // namespace glintmark

@@ -1,0 +1,26 @@
+// The glintmark program: one catch ladder around the command line.
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "host/cli/interrupt.h"
+#include "host/cli/program.h"
+#include "host/core/error.h"
+
+int main(int argc, char** argv) {
+  try {
+    return glintmark::runProgram(argc, argv);
+  } catch (const glintmark::Error& error) {
+    std::fprintf(stderr, "glintmark: %s\n", error.what());
+    return error.code();
+  } catch (const glintmark::Interrupted& interrupted) {
+    std::fprintf(stderr, "glintmark: %s\n", interrupted.what());
+    return glintmark::kExitInterrupted;
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "glintmark: out of memory; choose a smaller --size or scene\n");
+    return glintmark::kExitBadInput;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "glintmark: internal error: %s\n", error.what());
+    return glintmark::kExitCheckFailed;
+  }
+}
