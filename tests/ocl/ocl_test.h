@@ -91,10 +91,14 @@ __kernel void scalars(__global float* out, int i, uint u, float f) {
   std::filesystem::path cache_, kernels_;
 };
 
-/// The same with the project's own kernels.
-class ProjectKernelsTest : public OclTest {
+/// The same with the project's probes.
+class ProbeKernelsTest : public OclTest {
  protected:
-  ProjectKernelsTest() { unsetenv("GLINTMARK_KERNELS"); }
+  ProbeKernelsTest() {
+    const std::filesystem::path project = std::filesystem::path(GLINTMARK_SOURCE_DIR) / "kernels";
+    std::filesystem::copy(project / "probe.cl", kernels_);
+    std::filesystem::copy(project / "types.h", kernels_);
+  }
 };
 
 }  // namespace glintmark

@@ -2,6 +2,7 @@
 #include <cstddef>
 
 #include "host/core/shared_types.h"
+#include "host/ocl/kernel_folder.h"
 #include "tests/ocl/ocl_test.h"
 
 namespace glintmark {
@@ -14,7 +15,7 @@ constexpr double kMaxGbs = 1e5;
 // One core cannot do more than two 16-lane FMA units at 6 GHz.
 constexpr double kMaxGflopsPerCore = 2 * 16 * 2 * 6.0;
 
-class ProbeTest : public ProjectKernelsTest {
+class ProbeTest : public ProbeKernelsTest {
  protected:
   Device device_;
   ProgramCache cache_{device_};
@@ -64,17 +65,11 @@ TEST_F(ProbeTest, PeaksRefuseAnUnknownWidth) {
 
 // A device that computes something else must not be given a peak.
 TEST_F(ProbeTest, PeaksCheckTheAnswer) {
-  std::string source;
-  {
-    std::ifstream file(std::filesystem::path(kernelFolder()) / "probe.cl");
-    source.assign(std::istreambuf_iterator<char>(file), {});
-  }
+  std::string source = readFile(kernels_ / "probe.cl");
   const std::string line = "x7 = fma(x7, va, vb);";
   ASSERT_NE(source.find(line), std::string::npos);
   source.replace(source.find(line), line.size(), "x7 = fma(x7, va, va + vb);");
-  std::filesystem::copy(kernelFolder() + "/types.h", kernels_);
   writeFile(kernels_ / "probe.cl", source);
-  setenv("GLINTMARK_KERNELS", kernels_.c_str(), 1);
   ProgramCache wrong(device_);
   EXPECT_EQ(errorOf([&] { measurePeaks(device_, wrong, 1); }),
             "the FMA probe gave 13 instead of 12 on '" + device_.info().name +

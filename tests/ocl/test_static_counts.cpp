@@ -65,7 +65,7 @@ TEST(StaticCounts, StraightCodeHasNoLoopAndUnknownNamesNoCounts) {
   EXPECT_FALSE(countInstructions("", "other"));
 }
 
-class StaticCountsTest : public ProjectKernelsTest {
+class StaticCountsTest : public ProbeKernelsTest {
  protected:
   bool hasMachineCode() const {
     return device_.info().platform == "Portable Computing Language" &&
