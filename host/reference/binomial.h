@@ -1,0 +1,18 @@
+// Binomial quantiles: exact, and by the rule of method zk16.
+#pragma once
+#include <cstdint>
+
+namespace glintmark::reference {
+
+/// Smallest k with P(K > k) <= u for K binomial of `count` and `p`; u in (0, 1]. By Boost.Math.
+std::int64_t upperQuantile(double u, std::int64_t count, double p);
+
+/// Step 8 of "The draws" in kernels/README.md for method `exact`: upperQuantile, through the
+/// complement above p = 1/2.
+std::int64_t drawExact(double u, std::int64_t count, double p);
+
+/// The same for method `zk16`: exact up to a mean of 5 and 16 terms, beyond these the exponential
+/// tail and beyond that mean the normal distribution. [ZK16] Sect. 4.3
+std::int64_t drawZk16(double u, std::int64_t count, double p);
+
+}  // namespace glintmark::reference

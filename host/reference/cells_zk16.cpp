@@ -1,0 +1,77 @@
+// Method zk16: steps along the longer median of the parallelogram. [ZK16] Sect. 4.2, Fig. 6
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "host/reference/footprint.h"
+
+namespace glintmark::reference {
+namespace {
+
+// One grid with its axes renamed so that x is the long one.
+struct LongFirst {
+  glm::dvec2 centre{}, edge{};  // edge: the one that is longer along the long axis
+  double extent = 0;            // side of the box around the edge centres
+  bool swapped = false;         // true: the long axis is v
+};
+
+LongFirst longFirst(const GridFootprint& grid) {
+  const glm::dvec2 box = glm::max(glm::abs(grid.edge_x), glm::abs(grid.edge_y));
+  LongFirst f;
+  f.swapped = box.y > box.x;
+  const int long_axis = f.swapped ? 1 : 0;
+  f.extent = box[long_axis];
+  f.edge = std::abs(grid.edge_x[long_axis]) >= std::abs(grid.edge_y[long_axis]) ? grid.edge_x
+                                                                                : grid.edge_y;
+  f.centre = grid.centre;
+  if (f.swapped) {
+    std::swap(f.edge.x, f.edge.y);
+    std::swap(f.centre.x, f.centre.y);
+  }
+  return f;
+}
+
+std::int32_t wrap(std::int64_t index) {
+  return static_cast<std::int32_t>(static_cast<std::uint64_t>(index));
+}
+
+void visitGrid(const GridFootprint& grid, int ka, GridVisit& visit) {
+  const LongFirst f = longFirst(grid);
+  const double r = std::max(0.5 * (f.extent - 1.0), 0.0);
+  // Cell i has its centre at i + 1/2; those strictly inside (c - r - 1, c + r + 1) take part.
+  const double first = std::floor(f.centre.x - r - 1.5) + 1.0;
+  const double last = std::ceil(f.centre.x + r + 0.5) - 1.0;
+  const int n = static_cast<int>(last - first) + 1;
+  const int most = std::max(ka, 2);
+  visit.limited = n > most;
+  const int taken = std::min(n, most);
+  const double slope = f.edge.x != 0 ? f.edge.y / f.edge.x : 0.0;
+
+  for (int j = 0; j < taken; ++j) {
+    // Spread evenly and symmetrically where the limit bites.
+    const double step = visit.limited ? std::floor((j + 0.5) * n / taken) : j;
+    const double index = first + step;
+    const double distance = std::abs(index + 0.5 - f.centre.x);
+    const double along = std::clamp(1.0 + r - distance, 0.0, 1.0);
+    const double across = f.centre.y + (index + 0.5 - f.centre.x) * slope - 0.5;
+    const double below = std::floor(across);
+    for (int side = 0; side < 2; ++side) {
+      std::int64_t u = static_cast<std::int64_t>(index);
+      std::int64_t v = static_cast<std::int64_t>(below) + side;
+      if (f.swapped) std::swap(u, v);
+      const double share = side == 1 ? across - below : 1.0 - (across - below);
+      visit.cells.push_back({wrap(grid.base_u + u), wrap(grid.base_v + v), along * share});
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<GridVisit> visitZk16(const PixelFootprint& footprint, const glm::dvec2& stretch,
+                                 int ka) {
+  std::vector<GridVisit> grids = gridsFor(cellSizeZk16(footprint, ka));
+  for (GridVisit& visit : grids) visitGrid(inGrid(footprint, stretch, visit.level), ka, visit);
+  return grids;
+}
+
+}  // namespace glintmark::reference

@@ -1,0 +1,60 @@
+// One pixel of glints under point lights, in double precision: [ZK16] Listing 1 with the seeds of
+// kernels/README.md.
+#pragma once
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <span>
+
+#include "host/core/frame_packing.h"
+#include "host/reference/footprint.h"
+#include "host/reference/seeds.h"
+
+namespace glintmark::reference {
+
+/// [ZK16] Sect. 4.5, uncoloured.
+struct Glints {
+  glm::dvec2 alpha_g{0.3}, alpha_l{0.03};
+  double density = 1e6;  // microdetails per unit uv area
+  double size_variation = 0;
+  double intensity = 1;
+  glm::dvec3 f0{1.0};
+  bool groove = false;
+};
+
+struct PointLight {
+  glm::dvec3 direction{0, 0, 1};  // unit, world space, towards the light
+  glm::dvec3 irradiance{1.0};     // on a surface that faces it
+};
+
+struct SurfacePixel {
+  PixelFootprint footprint;
+  ShadingFrame frame;
+  glm::dvec3 view{0, 0, 1};  // unit, world space, towards the eye
+};
+
+struct GlintMethodOptions {
+  bool exact = false;
+  int ka = 16;
+  /// Replaces gridStretch where the caller needs the bits of another implementation.
+  std::optional<glm::dvec2> stretch{};
+};
+
+struct PixelResult {
+  glm::dvec3 radiance{0.0};
+  glm::dvec3 smooth{0.0};   // what radiance averages to over many cells
+  std::uint32_t cells = 0;  // visited, over all lights that reach the pixel
+  bool limited = false;
+};
+
+/// Step 5 of "The draws": index of a half vector (unit, tangent frame).
+HalfVectorIndex halfVectorIndex(const glm::dvec3& half, const Glints& glints);
+
+/// Share of reflecting microdetails of one cell of grid `level`; expectation `probability`.
+double cellShare(const Cell& cell, int level, double probability, HalfVectorIndex half,
+                 const Glints& glints, const glm::dvec2& stretch, bool exact);
+
+PixelResult evaluatePixel(const SurfacePixel& pixel, const Glints& glints,
+                          std::span<const PointLight> lights, const GlintMethodOptions& options);
+
+}  // namespace glintmark::reference

@@ -1,0 +1,68 @@
+#include "host/reference/seeds.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace glintmark::reference {
+namespace {
+
+constexpr double kMostExpected = 0x1p30;
+constexpr double kLeastFactor = 1.0 / 32.0;
+
+// (a + b) >> 16, arithmetic, wrapping like 32-bit integers.
+std::int32_t cellOf(std::int32_t half, std::uint32_t shift) {
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(half) + shift) >> 16;
+}
+
+}  // namespace
+
+std::int32_t coherentIndex(std::int32_t i) {
+  return i == 0 ? 0 : i >> std::countr_zero(static_cast<std::uint32_t>(i));
+}
+
+std::uint32_t cellSeed(std::int32_t cell_u, std::int32_t cell_v) {
+  const auto cu = static_cast<std::uint32_t>(coherentIndex(cell_u));
+  const auto cv = static_cast<std::uint32_t>(coherentIndex(cell_v));
+  std::uint32_t s = cu * 0x9E3779B1u + cv * 0x85EBCA77u;
+  s ^= s >> 16;
+  s *= 0x7FEB352Du;
+  s ^= s >> 15;
+  return s;
+}
+
+std::uint32_t pairSeed(std::uint32_t cell_seed, HalfVectorIndex half) {
+  const auto j_u = static_cast<std::uint32_t>(cellOf(half.u, cell_seed & 0xFFFFu));
+  const auto j_v = static_cast<std::uint32_t>(cellOf(half.v, cell_seed >> 16));
+  std::uint32_t d = cell_seed ^ (j_u + (j_v << 16));
+  d *= 0x846CA68Bu;
+  d ^= d >> 15;
+  d *= 0xC2B2AE3Du;
+  d ^= d >> 16;
+  return d;
+}
+
+double uniformOf(std::uint32_t h) {
+  return (h + 0.5) * 0x1p-32;
+}
+
+double gaussOf(std::uint32_t h) {
+  const std::uint32_t sum = (h & 0xFFu) + (h >> 8 & 0xFFu) + (h >> 16 & 0xFFu) + (h >> 24);
+  return (static_cast<double>(sum) - 510.0) / 147.8;
+}
+
+CellContent cellContent(std::uint32_t d, double mean, double size_variation) {
+  CellContent content;
+  const double factor =
+      size_variation > 0
+          ? std::max(std::abs(1.0 + size_variation * gaussOf(d * 0x2C1B3C6Du)), kLeastFactor)
+          : 1.0;
+  content.expected = std::min(mean, kMostExpected / (1.0 + 3.5 * size_variation)) * factor;
+  const double whole = std::floor(content.expected);
+  content.count = static_cast<std::int64_t>(whole);
+  if (uniformOf(d * 0x297A2D39u) < content.expected - whole) ++content.count;
+  content.draw = uniformOf(d);
+  return content;
+}
+
+}  // namespace glintmark::reference
