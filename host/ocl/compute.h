@@ -69,7 +69,8 @@ class Kernel {
 class Program {
  public:
   Kernel kernel(const std::string& name) const;
-  double buildNs() const;  // 0 when it came from memory
+  /// From source or binary to a built program [ns], storing apart; 0 when it came from memory.
+  double buildNs() const;
   bool fromDiskCache() const;
   const std::string& options() const;
   /// The compiled device binary as the driver gives it; on PoCL an archive. May be empty.

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <exception>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -16,10 +15,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Hashing the sources into the text makes drivers with a cache of their own, which may not look
+// The hash of all sources in the text makes drivers with a cache of their own, which may not look
 // into included files, see every change; #line makes their messages name the file.
 std::string sourceText(const fs::path& folder, const std::string& file, std::uint64_t hash) {
-  return fmt::format("// sources {:016x}\n#line 1 \"{}\"\n{}", hash, file, readFile(folder / file));
+  return fmt::format("#line 1 \"{}\"  // {:016x}\n{}", file, hash, readFile(folder / file));
 }
 
 std::optional<cl::Program> buildFromBinary(const Device::Impl& device, const std::string& binary,
