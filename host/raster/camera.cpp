@@ -15,6 +15,8 @@ constexpr int kMaxSize_px = 16384;
 constexpr std::int64_t kMaxPixels = std::int64_t{1} << 28;
 // Sine of the angle below which two directions count as parallel.
 constexpr double kParallel = 1e-9;
+// Distance relative to the coordinates below which two points count as one.
+constexpr double kSamePoint = 1e-13;
 
 bool isFinite(const glm::dvec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -32,7 +34,7 @@ void checkSize(int width_px, int height_px) {
 void checkView(const View& view) {
   if (!isFinite(view.eye) || !isFinite(view.target) || !isFinite(view.up))
     throw Error(fmt::format("view '{}': eye, target and up must be finite numbers", view.name));
-  if (glm::length(view.target - view.eye) <= kParallel * glm::length(view.eye) ||
+  if (glm::length(view.target - view.eye) <= kSamePoint * glm::length(view.eye) ||
       view.target == view.eye)
     throw Error(fmt::format("view '{}': eye and target must be different points", view.name));
   if (!(view.fov_y_deg > 0 && view.fov_y_deg < 180))

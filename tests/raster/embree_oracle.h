@@ -13,9 +13,12 @@ namespace glintmark::test {
 
 class EmbreeOracle {
  public:
-  explicit EmbreeOracle(const TriangleMesh& mesh) : device_(rtcNewDevice("threads=2")) {
+  explicit EmbreeOracle(const TriangleMesh& mesh, RTCSceneFlags flags = RTC_SCENE_FLAG_ROBUST,
+                        RTCBuildQuality quality = RTC_BUILD_QUALITY_MEDIUM)
+      : device_(rtcNewDevice(nullptr)) {
     scene_ = rtcNewScene(device_);
-    rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneFlags(scene_, flags);
+    rtcSetSceneBuildQuality(scene_, quality);
     RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* positions = static_cast<glm::vec3*>(
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
