@@ -18,6 +18,7 @@ namespace {
 
 constexpr std::array kAnglesDeg = {90, 75, 60, 45, 30, 20, 15, 10, 7, 5, 3, 2, 1};
 constexpr int kReps = 5;
+constexpr int kThumbnailWidthPx = 240;
 
 struct AngleResult {
   int angle_deg = 0;
@@ -37,6 +38,16 @@ double measureNsPerCell(Device& device, const Scene& scene, const View& view,
   return cells > 0 ? summarize(times_ns).median / cells : 0;
 }
 
+// Every n-th pixel, so that counts stay counts.
+Image thumbnail(const Image& cells) {
+  const int step = (cells.width + kThumbnailWidthPx - 1) / kThumbnailWidthPx;
+  Image small((cells.width + step - 1) / step, (cells.height + step - 1) / step, 1);
+  for (int y = 0; y < small.height; ++y) {
+    for (int x = 0; x < small.width; ++x) small.at(x, y)[0] = cells.at(x * step, y * step)[0];
+  }
+  return small;
+}
+
 void writeOutputs(const AngleSweep& sweep, const std::vector<AngleResult>& results) {
   if (results.empty()) return;
   TextTable table({"angle", "min", "mean", "max", "guard hits", "ns/cell"});
@@ -50,7 +61,7 @@ void writeOutputs(const AngleSweep& sweep, const std::vector<AngleResult>& resul
                   fmt::format("{}", counts.guard_hits), compactNumber(result.ns_per_cell)});
     csv += fmt::format("{},{},{},{},{},{}\n", result.angle_deg, counts.min, counts.mean, counts.max,
                        counts.guard_hits, result.ns_per_cell);
-    cells.push_back(result.counted.cells);
+    cells.push_back(thumbnail(result.counted.cells));
     captions.push_back(fmt::format("{} deg", result.angle_deg));
   }
   fmt::print("{}", table.toString());

@@ -82,6 +82,12 @@ Scene openScene(const CommonOptions& common, const std::string& name) {
   return scene;
 }
 
+const View& chosenView(const Scene& scene, const std::string& name) {
+  if (!name.empty()) return scene.view(name);
+  if (scene.views.empty()) throw Error(fmt::format("scene '{}' has no view", scene.name));
+  return scene.views.front();
+}
+
 RunInfo describeRun(const CommandLine& line, const Device& device) {
   RunInfo run = describeHost(line.words);
   const DeviceInfo& info = device.info();

@@ -57,6 +57,10 @@ int chosenLanes(const CommonOptions& common, const Device& device);
 /// Loads a scene with the common options; prints its notes to stderr unless quiet.
 Scene openScene(const CommonOptions& common, const std::string& name);
 
+/// The view of that name, or the scene's first if the name is empty. Throws Error listing the known
+/// ones, or if the scene has no view.
+const View& chosenView(const Scene& scene, const std::string& name);
+
 /// The host's part of RunInfo and the device's, without peaks.
 RunInfo describeRun(const CommandLine& line, const Device& device);
 

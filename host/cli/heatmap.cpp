@@ -50,7 +50,7 @@ int runView(const CommonOptions& common, const HeatmapCommand& command,
             const ShadingOptions& shading) {
   const HeatmapScale scale = parseScale(command.scale);
   const Scene scene = openScene(common, command.scene);
-  const View& view = scene.view(command.view.empty() ? "steep" : command.view);
+  const View& view = chosenView(scene, command.view);
   Device device = openDevice(common);
   const CountedCells counted = countCells(device, scene, view, shading, common.threads);
 
@@ -76,7 +76,7 @@ int runView(const CommonOptions& common, const HeatmapCommand& command,
 
 int runHeatmap(const CommonOptions& common, const HeatmapCommand& command) {
   checkOutputs(command);
-  const char* default_size = command.sweep_angle ? "240x135" : "1920x1080";
+  const char* default_size = command.sweep_angle ? "960x540" : "1920x1080";
   const ImageSize size = parseSize(command.size.empty() ? default_size : command.size);
   const ShadingOptions shading{.width_px = size.width_px,
                                .height_px = size.height_px,
@@ -103,8 +103,9 @@ void addHeatmapCommand(CLI::App& app, CommandLine& line) {
       ->type_name("FILE.png");
   command->add_option("--exr", options->exr, "Raw counts; -1 where no glint material covers")
       ->type_name("FILE.exr");
-  command->add_option("--view", options->view, "View of the scene (default: steep; sweep: sweep)");
-  command->add_option("--size", options->size, "Image size (default: 1920x1080; sweep: 240x135)")
+  command->add_option("--view", options->view,
+                      "View of the scene (default: its first; sweep: sweep)");
+  command->add_option("--size", options->size, "Image size (default: 1920x1080; sweep: 960x540)")
       ->type_name("WxH");
   command->add_option("--scale", options->scale, "fixed (8 to 64 cells) or auto (default: fixed)");
   command->add_option("--method", options->method, "zk16 or exact (default: zk16)");

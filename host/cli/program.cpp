@@ -14,7 +14,7 @@ constexpr const char* kDescription =
 constexpr const char* kExamples =
     "Examples:\n"
     "  glintmark info\n"
-    "  glintmark render sand -o sand.png --view overview --star\n"
+    "  glintmark render sand -o sand.png --star\n"
     "  glintmark heatmap sponza --view grazing -o cells.png\n"
     "  glintmark bench zk16\n"
     "Every subcommand has its own --help.\n"

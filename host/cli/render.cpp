@@ -16,10 +16,10 @@ namespace glintmark {
 namespace {
 
 struct RenderOptions {
-  std::string scene, view = "steep", output, aov_output;
+  std::string scene, view, output, aov_output;
   std::string size = "1920x1080", method = "zk16";
   bool no_glints = false;
-  std::optional<bool> star;
+  bool star = false, star_chosen = false;
   std::optional<double> exposure;
 };
 
@@ -36,7 +36,7 @@ void writePicture(Image radiance, const RenderOptions& options, const PostEffect
                   const std::string& extension) {
   const bool is_png = extension == ".png";
   const double exposure = options.exposure.value_or(post.exposure);
-  if (options.star.value_or(is_png && post.star)) {
+  if (options.star_chosen ? options.star : is_png && post.star) {
     applyStar(radiance, {.threshold = 1 / exposure});  // exposed radiance 1
   }
   if (is_png) {
@@ -66,7 +66,7 @@ int runRender(const CommonOptions& common, const RenderOptions& options) {
                          .method = parseMethod(options.method),
                          .glints = !options.no_glints};
   const Scene scene = openScene(common, options.scene);
-  const View& view = scene.view(options.view);
+  const View& view = chosenView(scene, options.view);
   Device device = openDevice(common);
   FrameRenderer renderer(device, scene, view, shading, common.threads);
 
@@ -92,20 +92,22 @@ void addRenderCommand(CLI::App& app, CommandLine& line) {
   command->add_option("-o,--output", options->output, "Picture: .png tone-mapped, .exr radiance")
       ->required()
       ->type_name("FILE");
-  command->add_option("--view", options->view, "View of the scene (default: steep)");
+  command->add_option("--view", options->view, "View of the scene (default: its first)");
   command->add_option("--size", options->size, "Image size (default: 1920x1080)")->type_name("WxH");
   command->add_option("--aov", options->aov_output, "Every rasterized plane as channels of one EXR")
       ->type_name("FILE");
   command->add_option("--method", options->method, "zk16 or exact (default: zk16)");
   command->add_flag("--no-glints", options->no_glints, "Smooth lobes in place of glints");
-  command->add_flag("--star,!--no-star", options->star, "Star-shaped glare (default: the scene's)");
+  const CLI::Option* star = command->add_flag("--star,!--no-star", options->star,
+                                              "Star-shaped glare (default: the scene's for PNG)");
   command->add_option("--exposure", options->exposure, "Scale before tone mapping")->type_name("X");
   command->footer(
       "Examples:\n"
       "  glintmark render snow -o snow.png --view grazing\n"
       "  glintmark render sand -o sand.exr --star --size 3840x2160\n"
       "  glintmark render car -o car.png --aov planes.exr --set material.paint.log_density=7");
-  command->callback([options, &line] {
+  command->callback([options, star, &line] {
+    options->star_chosen = star->count() > 0;
     line.action = [options, &line] { return runRender(line.common, *options); };
   });
 }

@@ -25,7 +25,7 @@ constexpr int kLegendHeight = kMargin + 2 * kLine + kBarHeight + kTickHeight + 2
 constexpr int kLegendMinWidth = 320;
 
 int textScale(int width_px) {
-  return std::max(1, width_px / 640);
+  return std::clamp(width_px / 640, 1, 3);
 }
 
 Image blankCanvas(int width, int height) {
