@@ -14,44 +14,36 @@
 
 // What a light does to a pixel before microdetails are counted.
 typedef struct {
-  vfloat specular;      // mean over the light of F0-free G D / (4 o.n), times nothing else
-  vfloat schlick;       // the same times (1 - cos)^5
-  vfloat cosine;        // mean of max(i.n, 0)
-  vfloat probability;   // [ZK16] Eq. 7, 0 where the light does not reach
-  vfloat3 half_vector;  // unit, local, of the light's axis
+  vfloat specular;     // mean over the light of G D / (4 o.n), Fresnel term left out
+  vfloat schlick;      // the same times (1 - cos)^5
+  vfloat cosine;       // mean of max(i.n, 0)
+  vfloat probability;  // of a microdetail reflecting, [ZK16] Eq. 7; 0 where the light does not reach
+  vfloat half_u, half_v;  // paraboloid map of the half vector of the light's axis
 } LightLobe;
 
+#if LIGHT_CONE
 // The smooth lobe under one light, averaged over the light's taps.
-WIDE LightLobe evaluateLight(ShadingFrame frame, vfloat3 view, constant const GlintMaterial* material,
+WIDE LightLobe evaluateLight(ShadingFrame frame, vfloat3 view, SmithLambda lambda_view,
+                             constant const GlintMaterial* material,
                              constant const LightParams* light, constant const float4* taps) {
-  const float2 alpha_g = material->alpha_g;
-  const vfloat lambda_view = smithLambda(view, alpha_g);
   vfloat density = (vfloat)(0.0f);
   LightLobe lobe;
   lobe.specular = lobe.schlick = lobe.cosine = (vfloat)(0.0f);
-
   for (uint t = 0; t < light->tap_count; ++t) {
     const vfloat3 tap = toLocal(frame, broadcast3(taps[light->first_tap + t]));
     const vfloat3 l = {tap.x, tap.y, max(tap.z, (vfloat)(0.0f))};
-    const vmask above = (tap.z > 0.0f) & (view.z > 0.0f);
+    const vfloat above = (tap.z > 0.0f) ? (vfloat)(1.0f) : (vfloat)(0.0f);
     const HalfSlope h = halfSlope(l, view);
-#if LIGHT_CONE
-    const SlopeMatrix cone = coneSlopeMatrix(l, h, light->tap_variance);
+    const SlopeMatrix a = widenedAlpha(material->alpha_g, l, h, light->tap_variance);
+    const vfloat p22 = slopeDensity(a, h);
+#if GROOVE
+    // The density across the grooves alone; along them the lobe stays smooth.
+    density = fma(above, grooveDensity(a.vv, h.v), density);
 #else
-    const SlopeMatrix cone = {(vfloat)(0.0f), (vfloat)(0.0f), (vfloat)(0.0f)};
+    density = fma(above, p22, density);
 #endif
-    const SlopeMatrix a = widen(alpha_g, cone);
-    const vfloat p22 = slopeDensity(a, h.u, h.v);
-#if GLINT && GROOVE
-    // The density across the grooves alone; along them the lobe stays smooth. [ZK16] Eq. 6
-    density += above ? wideExp2(h.v * h.v / a.vv * -LOG2_E) / sqrt(PI * a.vv) : (vfloat)(0.0f);
-#else
-    density += above ? p22 : (vfloat)(0.0f);
-#endif
-    // [ZK16] Eq. 1 times i.n, with D = P22 / (m.n)^4 and 1 / (m.n)^2 = |i + o|^2 / (i + o)_z^2.
-    const vfloat sec2 = h.length_sq / (h.sum_z * h.sum_z);
-    const vfloat masking = 1.0f / (1.0f + lambda_view + smithLambda(l, alpha_g));
-    const vfloat value = above ? p22 * sec2 * sec2 * masking / (4.0f * view.z) : (vfloat)(0.0f);
+    const vfloat value =
+        above * specularTerm(p22, h, smithLambda(l, material->alpha_g), lambda_view, view.z);
     lobe.specular += value;
     lobe.schlick = fma(value, schlickWeight(h), lobe.schlick);
     lobe.cosine += l.z;
@@ -61,29 +53,50 @@ WIDE LightLobe evaluateLight(ShadingFrame frame, vfloat3 view, constant const Gl
   lobe.schlick *= per_tap;
   lobe.cosine *= per_tap;
 
-  // P(h) = D_g(h) / D_l(0), both widened by the light [ZK16] Eq. 7.
+  // P(h) = D_g(h) / D_l(0), both widened by the light.
   const vfloat3 axis = toLocal(frame, broadcast3(light->direction));
   const HalfSlope h = halfSlope(axis, view);
-#if LIGHT_CONE
-  const SlopeMatrix cone = coneSlopeMatrix(axis, h, light->variance);
+  const SlopeMatrix micro = widenedAlpha(material->alpha_l, axis, h, light->variance);
+#if GROOVE
+  const vfloat peak_sq = PI * micro.vv;
 #else
-  const SlopeMatrix cone = {(vfloat)(0.0f), (vfloat)(0.0f), (vfloat)(0.0f)};
+  const vfloat peak_sq = PI * PI * determinant(micro);
 #endif
-  const SlopeMatrix micro = widen(material->alpha_l, cone);
-#if GLINT && GROOVE
-  const vfloat inverse_peak = sqrt(PI * micro.vv);
-#else
-  const vfloat inverse_peak = PI * sqrt(determinant(micro));
-#endif
-  lobe.probability = min(density * per_tap * inverse_peak, (vfloat)(1.0f));
-
-  const vfloat length = sqrt(h.length_sq);
-  const vfloat inverse_length = 1.0f / max(length, (vfloat)(1e-12f));
-  lobe.half_vector.x = (axis.x + view.x) * inverse_length;
-  lobe.half_vector.y = (axis.y + view.y) * inverse_length;
-  lobe.half_vector.z = (axis.z + view.z) * inverse_length;
+  lobe.probability = min(density * per_tap * peak_sq * wideRsqrt(peak_sq), (vfloat)(1.0f));
+  const vfloat inverse = wideReciprocal(h.length_sq * wideRsqrt(h.length_sq) + h.sum_z);
+  lobe.half_u = (axis.x + view.x) * inverse;
+  lobe.half_v = (axis.y + view.y) * inverse;
   return lobe;
 }
+#else
+// The smooth lobe under one point light.
+WIDE LightLobe evaluateLight(ShadingFrame frame, vfloat3 view, SmithLambda lambda_view,
+                             constant const GlintMaterial* material,
+                             constant const LightParams* light, constant const float4* taps) {
+  const float2 alpha_g = material->alpha_g, alpha_l = material->alpha_l;
+  const vfloat3 axis = toLocal(frame, broadcast3(light->direction));
+  const vfloat3 l = {axis.x, axis.y, max(axis.z, (vfloat)(0.0f))};
+  const vmask above = axis.z > 0.0f;
+  const HalfSlope h = halfSlope(l, view);
+  const vfloat p22 = above ? pointSlopeDensity(alpha_g, h) : (vfloat)(0.0f);
+  LightLobe lobe;
+  lobe.specular = specularTerm(p22, h, smithLambda(l, alpha_g), lambda_view, view.z);
+  lobe.schlick = lobe.specular * schlickWeight(h);
+  lobe.cosine = l.z;
+
+  // P(h) = D_g(h) / D_l(0).
+#if GROOVE
+  const vfloat density = grooveDensity((vfloat)(alpha_g.y * alpha_g.y), h.v);
+  lobe.probability = above ? min(density * (alpha_l.y * 1.77245385f), (vfloat)(1.0f)) : (vfloat)(0.0f);
+#else
+  lobe.probability = min(p22 * (PI * alpha_l.x * alpha_l.y), (vfloat)(1.0f));
+#endif
+  const vfloat inverse = wideReciprocal(h.length_sq * wideRsqrt(h.length_sq) + h.sum_z);
+  lobe.half_u = (l.x + view.x) * inverse;
+  lobe.half_v = (l.y + view.y) * inverse;
+  return lobe;
+}
+#endif
 
 #if GLINT
 // The half vector in cells of its own grid, paraboloid-mapped [ZK16] Sect. 4.3. A cell is as large
@@ -92,17 +105,16 @@ WIDE LightLobe evaluateLight(ShadingFrame frame, vfloat3 view, constant const Gl
 WIDE HalfVectorCell halfVectorCell(LightLobe lobe, constant const GlintMaterial* material,
                                    float cone_slope) {
   const float half_sqrt_pi = 0.88622693f;
-  const float side_u = fmax(half_sqrt_pi * (material->alpha_l.x + cone_slope), 4e-5f);
-  const float side_v = fmax(half_sqrt_pi * (material->alpha_l.y + cone_slope), 4e-5f);
-  const vfloat paraboloid = 65536.0f / (1.0f + max(lobe.half_vector.z, (vfloat)(0.0f)));
+  const float2 side = max(half_sqrt_pi * (material->alpha_l + cone_slope), (float2)(4e-5f));
+  const float2 scale = 65536.0f / side;
   HalfVectorCell cell;
   cell.odds = makeBinomialOdds(lobe.probability);
 #if GROOVE
   cell.h_u = (vint)(0);
 #else
-  cell.h_u = toInt(floor(lobe.half_vector.x * paraboloid / side_u));
+  cell.h_u = toInt(floor(lobe.half_u * scale.x));
 #endif
-  cell.h_v = toInt(floor(lobe.half_vector.y * paraboloid / side_v));
+  cell.h_v = toInt(floor(lobe.half_v * scale.y));
   return cell;
 }
 
@@ -155,9 +167,10 @@ kernel void shade(global const uint* planes, constant const FrameParams* frame,
   vfloat3 ray = {fma(px, (vfloat)(frame->ray_dx.x), fma(py, (vfloat)(frame->ray_dy.x), (vfloat)(frame->ray_origin.x))),
                  fma(px, (vfloat)(frame->ray_dx.y), fma(py, (vfloat)(frame->ray_dy.y), (vfloat)(frame->ray_origin.y))),
                  fma(px, (vfloat)(frame->ray_dx.z), fma(py, (vfloat)(frame->ray_dy.z), (vfloat)(frame->ray_origin.z)))};
-  vfloat3 view = toLocal(basis, scale3(ray, -1.0f / sqrt(dot3(ray, ray))));
+  vfloat3 view = toLocal(basis, scale3(ray, -wideRsqrt(dot3(ray, ray))));
   // Interpolated normals may turn from the eye at silhouettes; keep Eq. 1 finite there.
   view.z = max(view.z, (vfloat)(1e-4f));
+  const SmithLambda lambda_view = smithLambda(view, material->alpha_g);
 
 #if GLINT
   const float2 gamma = gridStretch(material->alpha_g, material->alpha_l);
@@ -170,7 +183,7 @@ kernel void shade(global const uint* planes, constant const FrameParams* frame,
   vfloat3 sum = {(vfloat)(0.0f), (vfloat)(0.0f), (vfloat)(0.0f)};
   for (uint i = 0; i < frame->light_count; ++i) {
     constant const LightParams* light = &lights[i];
-    const LightLobe lobe = evaluateLight(basis, view, material, light, taps);
+    const LightLobe lobe = evaluateLight(basis, view, lambda_view, material, light, taps);
     vfloat3 ratio = {(vfloat)(1.0f), (vfloat)(1.0f), (vfloat)(1.0f)};
 #if GLINT
     const vmask lit = lobe.probability > MIN_PROBABILITY;
@@ -181,7 +194,8 @@ kernel void shade(global const uint* planes, constant const FrameParams* frame,
       vmask cut = (vint)(0);
       const GlintSum share = glintRatio(&footprint, &half_cell, &cell_material, &visited, &cut);
       // Relative to its expectation, so that the smooth lobe carries units and energy.
-      const vfloat inverse = lit ? 1.0f / lobe.probability : (vfloat)(0.0f);
+      const vfloat inverse =
+          lit ? wideReciprocal(max(lobe.probability, (vfloat)(MIN_PROBABILITY))) : (vfloat)(0.0f);
 #if GLINT_COLOUR
       ratio.x = share.x * inverse;
       ratio.y = share.y * inverse;
