@@ -65,17 +65,12 @@ double archRise(double x) {
 
 constexpr double kBodySquareness = 4.5;
 
-glm::dvec3 bodyPoint(double s, double t) {
+/// The body's shell without wheel arches; `angle` runs over the section from one sill (0) across to
+/// the other (pi).
+glm::dvec3 shellPoint(double s, double angle) {
   const double x = bodyX(s);
   const BodySection section = bodySection(x);
   const double height = section.top - section.bottom;
-  // The section starts where the arch cuts it: superellipse() inverted at that height. Only the
-  // panel's lower part gives way, so that the grid above stays straight.
-  const double cut = std::min(archRise(x) / std::max(height, 1e-6), 0.95);
-  const double start =
-      std::atan(cut / std::pow(1 - std::pow(cut, kBodySquareness), 1 / kBodySquareness));
-  const double near_side = std::max(0.0, 1 - 2 * t), far_side = std::max(0.0, 2 * t - 1);
-  const double angle = kPi * t + start * (near_side * near_side - far_side * far_side);
   const glm::dvec2 unit = superellipse(angle, kBodySquareness);
   glm::dvec3 p(x, section.bottom + height * unit.y, section.half_width * unit.x);
 
@@ -89,6 +84,55 @@ glm::dvec3 bodyPoint(double s, double t) {
   return p;
 }
 
+/// Angle at grid line t of the shell that the wheel arches have cut. The section starts where the
+/// arch cuts it: superellipse() inverted at that height. Only the panel's lower part gives way, so
+/// that the grid above stays straight.
+double trimmedAngle(double s, double t) {
+  const BodySection section = bodySection(bodyX(s));
+  const double height = std::max(section.top - section.bottom, 1e-6);
+  const double cut = std::min(archRise(bodyX(s)) / height, 0.95);
+  const double start =
+      std::atan(cut / std::pow(1 - std::pow(cut, kBodySquareness), 1 / kBodySquareness));
+  const double near_side = std::max(0.0, 1 - 2 * t), far_side = std::max(0.0, 2 * t - 1);
+  return kPi * t + start * (near_side * near_side - far_side * far_side);
+}
+
+/// The uvs of the uncut shell, so that the arches cut the chart and do not bend it.
+class ShellChart {
+ public:
+  ShellChart() {
+    MeshBuilder builder;
+    builder.addPatch(
+        builder.part("shell"), kColumns, kRows,
+        [](double s, double t) { return SurfacePoint{shellPoint(s, kPi * t)}; },
+        UvLayout::kArcLength);
+    uvs_ = builder.finish().mesh.uvs;
+  }
+
+  glm::dvec2 uv(double s, double angle) const {
+    const double x = s * kColumns, y = angle / kPi * kRows;
+    const int i = std::clamp(static_cast<int>(x), 0, kColumns - 1);
+    const int j = std::clamp(static_cast<int>(y), 0, kRows - 1);
+    return glm::mix(glm::mix(at(i, j), at(i + 1, j), x - i),
+                    glm::mix(at(i, j + 1), at(i + 1, j + 1), x - i), y - j);
+  }
+
+ private:
+  static constexpr int kColumns = 260, kRows = 130;
+  const glm::dvec2& at(int i, int j) const {
+    return uvs_[static_cast<std::size_t>(j) * (kColumns + 1) + i];
+  }
+  std::vector<glm::dvec2> uvs_;
+};
+
+void addBody(MeshBuilder& builder, int columns, int rows) {
+  const ShellChart chart;
+  builder.addPatch(builder.part("body"), columns, rows, [&chart](double s, double t) {
+    const double angle = trimmedAngle(s, t);
+    return SurfacePoint{shellPoint(s, angle), chart.uv(s, angle)};
+  });
+}
+
 constexpr double kCabinMiddle = -0.52, kCabinHalfLength = 1.42;
 constexpr double kBelt = 0.90, kCabinHeight = 0.53;
 
@@ -97,7 +141,7 @@ glm::dvec3 cabinPoint(double s, double t) {
   const double along = std::sin(0.5 * kPi * (2 * s - 1));
   const double x = kCabinMiddle + kCabinHalfLength * along;
   const double close = closing(along, 1, along > 0 ? 2.3 : 2.9);
-  const glm::dvec2 unit = superellipse(kPi * glm::mix(0.0, 1.0, t), 3.6);
+  const glm::dvec2 unit = superellipse(kPi * t, 3.6);
   const double half_width = 0.74 * (0.86 + 0.14 * closing(along, 1.01, 4));
   const double height = kCabinHeight * close * unit.y;
   return {x, kBelt + height, half_width * unit.x * (1 - 0.30 * height / kCabinHeight)};
@@ -159,10 +203,10 @@ void addLamp(MeshBuilder& builder, double end, double side) {
   builder.addPatch(
       builder.part("lamp"), 32, 16,
       [=](double s, double t) {
-        const double a = -end * side * 2 * kPi * s, bend = 0.5 * kPi * glm::mix(1.0, 0.02, t);
+        const double a = -end * 2 * kPi * s, bend = 0.5 * kPi * glm::mix(1.0, 0.02, t);
         const double r = 0.105 * std::sin(bend);
-        return SurfacePoint{{end * (2.38 + 0.09 * std::cos(bend)), 0.685 + r * std::sin(a),
-                             side * (0.62 + r * std::cos(a) * end * side * end)}};
+        return SurfacePoint{{end * (2.36 + 0.09 * std::cos(bend)), 0.70 + r * std::sin(a),
+                             side * 0.60 + r * std::cos(a)}};
       },
       UvLayout::kArcLength);
 }
@@ -187,9 +231,7 @@ MeshMaker readCar(SceneTable& mesh) {
       return std::max(4, static_cast<int>(std::lround(n * detail)));
     };
     MeshBuilder builder;
-    builder.addPatch(
-        builder.part("body"), steps(780), steps(260),
-        [](double s, double t) { return SurfacePoint{bodyPoint(s, t)}; }, UvLayout::kArcLength);
+    addBody(builder, steps(780), steps(260));
     const std::uint32_t roof = builder.part("roof"), window = builder.part("window");
     builder.addPatch([=](double s, double t) { return isWindow(s, t) ? window : roof; }, steps(290),
                      steps(200), [](double s, double t) { return SurfacePoint{cabinPoint(s, t)}; },

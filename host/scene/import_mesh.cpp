@@ -7,9 +7,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <set>
-
 #include "host/core/error.h"
 #include "host/scene/mesh_checks.h"
 
@@ -54,7 +51,7 @@ class Importer {
   explicit Importer(const std::filesystem::path& file) : source_(file.string()) {
     importer_.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
                                  aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-    if (importer_.ReadFile(source_, 0) == nullptr) fail(importer_.GetErrorString());
+    if (importer_.ReadFile(source_, 0) == nullptr) failToRead();
     for (unsigned m = 0; m < importer_.GetScene()->mNumMeshes; ++m) {
       checkFaces(*importer_.GetScene()->mMeshes[m], source_);
     }
@@ -62,11 +59,12 @@ class Importer {
     scene_ =
         importer_.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_SortByPType |
                                       aiProcess_GenSmoothNormals | aiProcess_JoinIdenticalVertices);
-    if (scene_ == nullptr) fail(importer_.GetErrorString());
   }
 
   PartMesh run() {
-    if (scene_->mRootNode != nullptr) addNode(*scene_->mRootNode, aiMatrix4x4());
+    // Without a triangle among its points and lines, nothing is left of the file.
+    if (scene_ != nullptr && scene_->mRootNode != nullptr)
+      addNode(*scene_->mRootNode, aiMatrix4x4());
     const std::size_t all = out_.mesh.triangles.size();
     if (all == 0) fail("the mesh has no triangles, expected at least one");
     if (triangles_without_uv_ == all) fail("the mesh has no uvs, expected texture coordinates");
@@ -83,6 +81,12 @@ class Importer {
  private:
   [[noreturn]] void fail(const std::string& reason) const {
     throw Error(fmt::format("{}: {}", source_, reason));
+  }
+
+  [[noreturn]] void failToRead() const {
+    std::string reason = importer_.GetErrorString();
+    while (!reason.empty() && (reason.back() == '.' || reason.back() == '\n')) reason.pop_back();
+    fail("cannot be read as a mesh: " + reason);
   }
 
   void addNode(const aiNode& node, const aiMatrix4x4& parent) {

@@ -29,8 +29,8 @@ toml::table parseFile(const std::string& file) {
   }
 }
 
-/// Material of a part by the rule that fits its name most closely: the name itself, else the longest
-/// start of it. Material 0 if none does.
+/// Material of a part by the rule that fits its name most closely: the name itself, else the
+/// longest start of it. Material 0 if none does.
 std::uint32_t materialOf(const std::string& part, const std::vector<MeshPlan::PartRule>& rules) {
   std::uint32_t material = 0;
   std::size_t best = 0;

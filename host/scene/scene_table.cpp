@@ -11,21 +11,16 @@
 namespace glintmark {
 namespace {
 
-/// "a string", "an array" ... for messages.
+/// A node as messages show it.
 std::string describe(const toml::node& node) {
-  switch (node.type()) {
-    case toml::node_type::table:
-      return "a table";
-    case toml::node_type::array:
-      return "an array";
-    default: {
-      std::ostringstream out;
-      node.visit([&out](const auto& value) {
-        if constexpr (toml::is_value<decltype(value)>) out << value;
-      });
-      return out.str();
-    }
-  }
+  if (node.is_table()) return "a table";
+  if (node.is_array()) return "an array";
+  if (const auto number = node.value_exact<double>()) return fmt::format("{}", *number);
+  std::ostringstream out;
+  node.visit([&out](const auto& value) {
+    if constexpr (toml::is_value<decltype(value)>) out << value;
+  });
+  return out.str();
 }
 
 }  // namespace

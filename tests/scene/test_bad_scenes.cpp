@@ -1,0 +1,158 @@
+// Every mistake in a scene file gets one sentence that names the place and what would be right.
+#include "tests/scene/scene_test_tools.h"
+
+namespace glintmark {
+namespace {
+
+/// Loads a scene file of this text and returns the complaint.
+std::string complaint(const TemporaryFolder& folder, const std::string& text) {
+  const std::string file = folder.write("scene.toml", text);
+  return errorOf([&] { load(file); });
+}
+
+TEST(BadScenes, TheBaseSceneLoads) {
+  const TemporaryFolder folder;
+  const Scene scene = load(folder.write("scene.toml", sceneText()));
+  EXPECT_EQ(scene.name, "scene");
+  EXPECT_EQ(scene.mesh.triangleCount(), 2u);
+}
+
+TEST(BadScenes, MissingScene) {
+  expectMessage(errorOf([] { load("snowman"); }), {"'snowman'", "known are", "snow", "car"});
+  expectMessage(errorOf([] { load(""); }), {"known are"});
+  expectMessage(errorOf([] { load("../scenes/snow"); }), {"known are"});
+  expectMessage(errorOf([] { load("nowhere/x.toml"); }), {"nowhere/x.toml"});
+}
+
+TEST(BadScenes, MalformedToml) {
+  const TemporaryFolder folder;
+  expectMessage(complaint(folder, "[mesh]\ngenerator = \"plane\nsize = 1\n"),
+                {"scene.toml:2: malformed TOML"});
+  expectMessage(complaint(folder, "a = 1\na = 2\n"), {"scene.toml:2: malformed TOML"});
+}
+
+TEST(BadScenes, UnknownKeys) {
+  const TemporaryFolder folder;
+  expectMessage(complaint(folder, sceneText("generator = \"plane\"\nsise = 2")),
+                {"scene.toml:3: mesh.sise is an unknown key, known here are", "size"});
+  expectMessage(complaint(folder, sceneText("generator = \"plane\"", "colour = 1")),
+                {"scene.toml:5: material.paint.colour", "global_roughness"});
+  expectMessage(complaint(folder, "lights = 1\n" + sceneText()), {"scene.toml:1: lights", "light"});
+  expectMessage(complaint(folder, sceneText("generator = \"plane\"", "", "zoom = 1")),
+                {"view.front.zoom", "fov_y_deg"});
+  expectMessage(complaint(folder, sceneText() + "[post]\nglow = true"), {"post.glow", "exposure"});
+  expectMessage(complaint(folder, sceneText() + "[environment]\nmap = 'x'"), {"environment.map"});
+}
+
+TEST(BadScenes, UnknownGenerator) {
+  const TemporaryFolder folder;
+  expectMessage(complaint(folder, sceneText("generator = \"teapot\"")),
+                {"scene.toml:2: mesh.generator is 'teapot', known are arcade, car"});
+}
+
+TEST(BadScenes, MissingSections) {
+  const TemporaryFolder folder;
+  const std::string material = "[[material]]\nname = 'm'\n", view = "[[view]]\nname = 'v'\n";
+  const std::string light = "[[light]]\n", mesh = "[mesh]\ngenerator = 'plane'\n";
+  expectMessage(complaint(folder, material + view + light), {"mesh is missing"});
+  expectMessage(complaint(folder, mesh + view + light), {"material is missing"});
+  expectMessage(complaint(folder, mesh + material + light), {"view is missing"});
+  expectMessage(complaint(folder, mesh + material + view), {"light is missing"});
+  expectMessage(complaint(folder, "[mesh]\n" + material + view + light),
+                {"mesh.generator is missing"});
+  expectMessage(complaint(folder, mesh + "[[material]]\n" + view + light), {"material.0.name"});
+}
+
+TEST(BadScenes, DuplicateNames) {
+  const TemporaryFolder folder;
+  expectMessage(complaint(folder, sceneText() + "[[view]]\nname = 'front'"),
+                {"view.front.name is taken by another view"});
+  expectMessage(complaint(folder, sceneText() + "[[material]]\nname = 'paint'"),
+                {"material.paint.name is taken by another material"});
+}
+
+struct BadValue {
+  const char* line;      // of the material
+  const char* expected;  // in the message
+};
+
+class BadMaterialValues : public testing::TestWithParam<BadValue> {};
+
+TEST_P(BadMaterialValues, AreErrors) {
+  const TemporaryFolder folder;
+  expectMessage(complaint(folder, sceneText("generator = \"plane\"", GetParam().line)),
+                {"scene.toml:5: material.paint.", GetParam().expected});
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, BadMaterialValues,
+    testing::Values(
+        BadValue{"global_roughness = 0", "is 0, expected a number in (0, 1]"},
+        BadValue{"global_roughness = 1.5", "expected a number in (0, 1]"},
+        BadValue{"global_roughness = nan", "is nan, expected a number in (0, 1]"},
+        BadValue{"global_roughness = [0.1, 0.2, 0.3]", "expected 2 numbers or one"},
+        BadValue{"global_roughness = \"rough\"", "is 'rough', expected 2 numbers or one"},
+        BadValue{"micro_roughness = [0.5, -0.1]", "is -0.1, expected a number in (0, 1]"},
+        BadValue{"micro_roughness = 1.01", "expected a number in (0, 1]"},
+        BadValue{"log_density = 40", "is 40, expected a number in [-12, 18]"},
+        BadValue{"log_density = true", "expected a number in"},
+        BadValue{"size_variation = -1", "is -1, expected a number of at least 0"},
+        BadValue{"intensity = inf", "expected a number of at least 0"},
+        BadValue{"f0 = [1.0, 2.0, 0.0]", "expected a number in [0, 1]"},
+        BadValue{"albedo = [0.1, 0.2]", "expected 3 numbers or one"},
+        BadValue{"type = \"glitter\"", "expected glints, grooves or smooth"},
+        BadValue{"palette = \"rainbow\"", "expected \"wheel\" or a list"},
+        BadValue{"palette = []", "has 0 colours, expected 1 to 8"},
+        BadValue{"palette = 3", "expected a list of colours"}));
+
+TEST(BadScenes, LightValues) {
+  const TemporaryFolder folder;
+  const auto with_light = [&](const std::string& lines) {
+    return complaint(folder, sceneText() + "[[light]]\nname = 'l'\n" + lines);
+  };
+  expectMessage(with_light("half_angle_deg = 91"), {"light.l.half_angle_deg", "[0, 90]"});
+  expectMessage(with_light("irradiance = -1"), {"light.l.irradiance is -1", "at least 0"});
+  expectMessage(with_light("direction = [0, 0, 0]"), {"light.l.direction is 0"});
+  expectMessage(with_light("direction = [0, 1, 0]\nazimuth_deg = 3"), {"one way or the other"});
+}
+
+TEST(BadScenes, ViewValues) {
+  const TemporaryFolder folder;
+  const auto with_view = [&](const std::string& lines) {
+    return complaint(folder, sceneText() + "[[view]]\nname = 'v'\n" + lines);
+  };
+  expectMessage(with_view("fov_y_deg = 180"), {"view.v.fov_y_deg is 180"});
+  expectMessage(with_view("near_plane = 0"), {"view.v.near_plane is 0, expected a number above 0"});
+  expectMessage(with_view("eye = [1, 1, 1]\ntarget = [1, 1, 1]"), {"view.v.eye is the target"});
+  expectMessage(with_view("eye = [0, 5, 0]"), {"view.v.up is along the view axis"});
+  expectMessage(with_view("orbit = { angle_deg = 0 }"), {"view.v.orbit.angle_deg is 0", "(0, 90]"});
+  expectMessage(with_view("orbit = { distance = 0 }"), {"view.v.orbit.distance is 0"});
+  expectMessage(with_view("orbit = { normal = 0 }"), {"view.v.orbit.normal is 0"});
+  expectMessage(with_view("orbit = { angle = 5 }"), {"view.v.orbit.angle is an unknown key"});
+  expectMessage(with_view("eye = [1, 1, 1]\norbit = { }"), {"comes with an orbit"});
+}
+
+TEST(BadScenes, UnknownView) {
+  const TemporaryFolder folder;
+  const Scene scene = load(folder.write("scene.toml", sceneText()));
+  EXPECT_EQ(scene.view("front").name, "front");
+  expectMessage(errorOf([&] { scene.view("back"); }), {"'back'", "known are front"});
+}
+
+TEST(BadScenes, PartsOfUnknownMaterials) {
+  const TemporaryFolder folder;
+  expectMessage(complaint(folder, sceneText("generator = 'plane'\nparts = { plane = 'gold' }")),
+                {"mesh.parts.plane is 'gold', known materials are paint"});
+}
+
+TEST(BadScenes, ImageWithoutALoader) {
+  const TemporaryFolder folder;
+  folder.write("sky.hdr", "");
+  expectMessage(complaint(folder, sceneText() + "[environment]\nimage = 'sky.hdr'"),
+                {"environment.image"});
+  expectMessage(complaint(folder, sceneText() + "[environment]\nimage = 'none.hdr'"),
+                {"no environment image file none.hdr"});
+}
+
+}  // namespace
+}  // namespace glintmark
