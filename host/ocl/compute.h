@@ -111,7 +111,7 @@ struct DevicePeaks {
   double gflops = 0;  // float FMA, two operations each
   double gbs = 0;     // bytes read + written by a triad, per ns
 };
-/// Takes the fastest of several launches, 0.3 s after the first time, and checks what they
+/// Takes the fastest of many launches, about 0.5 s after the first time, and checks what they
 /// computed; `lanes` is the vector width to use (DeviceInfo::default_lanes for the device's own
 /// peak). Throws Error if the device computes a wrong answer.
 DevicePeaks measurePeaks(Device& device, ProgramCache& cache, int lanes);

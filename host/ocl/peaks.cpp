@@ -16,15 +16,22 @@ constexpr double kFlopsPerRoundAndLane = 2.0 * 12.0;  // twelve FMA chains
 constexpr std::uint32_t kFirstRounds = 256;           // long enough for every chain to settle
 constexpr std::uint32_t kMaxRounds = 1u << 28;
 constexpr double kLaunchNs = 6e6;  // long beside the cost of a launch, short beside a preemption
-constexpr int kRepetitions = 12;
+constexpr int kFmaPatience = 24;
+constexpr int kTriadPatience = 5;
+constexpr int kMaxRepetitions = 100;
 
 constexpr std::size_t kMebibyte = std::size_t{1} << 20;
 constexpr std::size_t kMinArrayBytes = 32 * kMebibyte;
 
-// Fastest of several launches: what disturbs a launch can only slow it down.
-double bestEventNs(int repetitions, const std::function<LaunchTimes()>& launch) {
+// Fastest launch: what disturbs one can only slow it down. Goes on until `patience` launches in a
+// row were no faster by 1%, because clocks and schedulers take their time to settle.
+double bestEventNs(int patience, const std::function<LaunchTimes()>& launch) {
   double best = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < repetitions; ++i) best = std::min(best, launch().event_ns);
+  for (int i = 0, since_best = 0; i < kMaxRepetitions && since_best < patience; ++i, ++since_best) {
+    const double event_ns = launch().event_ns;
+    if (event_ns < 0.99 * best) since_best = 0;
+    best = std::min(best, event_ns);
+  }
   return std::max(best, 1.0);
 }
 
@@ -52,7 +59,7 @@ double measureGflops(Device& device, const Program& program, int lanes) {
   };
   launch();
   while (rounds < kMaxRounds && launch().event_ns < kLaunchNs) rounds *= 2;
-  const double best_ns = bestEventNs(kRepetitions, launch);
+  const double best_ns = bestEventNs(kFmaPatience, launch);
 
   float answer = 0;
   values.read(&answer, sizeof answer);
@@ -87,7 +94,7 @@ double measureGbs(Device& device, const Program& program, int lanes) {
   const std::array<KernelArg, 5> args = {a, b, c, 3.0f, count};
   const auto launch = [&] { return triad.launch(args, count, local_size); };
   launch();
-  const double best_ns = bestEventNs(kRepetitions / 2, launch);
+  const double best_ns = bestEventNs(kTriadPatience, launch);
 
   float answer = 0;
   a.read(&answer, sizeof answer, bytes - sizeof answer);
