@@ -152,8 +152,9 @@ void Zk16Bench::measureAll(RecordLog& log) {
 
 std::string Zk16Bench::tableText() const {
   std::string text = fmt::format(
-      "[ZK16] Table 1 at {} on {}, {} lanes, {:.0f} GFLOP/s FMA peak (paper: GTX 980)\n",
-      options_.size, run_.device, run_.width, run_.peak_gflops);
+      "[ZK16] Table 1 at {}, {} lanes, {:.0f} GFLOP/s FMA peak (the paper's GTX 980: {:.0f})\n",
+      options_.size, run_.width, run_.peak_gflops, kGtx980PeakGflops);
+  text += fmt::format("on {:.90}\n\n", run_.device);
   text += zk16TableText(records_) + "\n" + zk16BreakdownText(records_);
   const auto counts = [&](const char* metric) {
     return std::ranges::find(records_, metric, &Record::metric);
@@ -161,15 +162,15 @@ std::string Zk16Bench::tableText() const {
   const auto kernel = counts("kernel_instructions"), loop = counts("cell_loop_instructions");
   if (kernel != records_.end() && loop != records_.end()) {
     text += fmt::format(
-        "\nStatic instructions of {}'s kernel for {} pixels at once: {:.0f}, cell loop {:.0f} "
-        "(paper: {} and {}).\n",
+        "\nStatic instructions of {}'s kernel, {} pixels at once:\n"
+        "{:.0f}, of which {:.0f} in the cell loop (paper: {} and {})\n",
         kernel->case_, run_.width, kernel->value.median, loop->value.median,
         kZk16ShaderInstructions, kZk16LoopInstructions);
   }
   std::string last_case;
   for (const Record& record : records_) {
     if (record.valid || record.case_ == last_case) continue;
-    text += fmt::format("{}: {}\n", record.case_, record.note);
+    text += fmt::format("{} {:.75}\n", record.case_, record.note);
     last_case = record.case_;
   }
   return text;

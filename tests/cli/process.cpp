@@ -1,0 +1,58 @@
+#include "tests/cli/process.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+#include "host/report/atomic_file.h"
+
+namespace glintmark {
+namespace {
+
+constexpr const char* kProgram = GLINTMARK_BINARY_DIR "/bin/glintmark";
+constexpr int kExitNotStarted = 127;
+
+void redirect(const char* file, int flags, int descriptor) {
+  const int opened = open(file, flags, 0644);
+  if (opened < 0 || dup2(opened, descriptor) < 0) _exit(kExitNotStarted);
+}
+
+}  // namespace
+
+Process::Process(const std::vector<std::string>& arguments,
+                 const std::vector<std::string>& environment) {
+  std::vector<char*> argv = {const_cast<char*>(kProgram)};
+  for (const std::string& word : arguments) argv.push_back(const_cast<char*>(word.c_str()));
+  argv.push_back(nullptr);
+  const std::string out = folder_ / "out", err = folder_ / "err";
+  pid_ = fork();
+  if (pid_ != 0) return;
+  redirect("/dev/null", O_RDONLY, STDIN_FILENO);
+  redirect(out.c_str(), O_WRONLY | O_CREAT, STDOUT_FILENO);
+  redirect(err.c_str(), O_WRONLY | O_CREAT, STDERR_FILENO);
+  for (const std::string& entry : environment) putenv(const_cast<char*>(entry.c_str()));
+  execv(kProgram, argv.data());
+  _exit(kExitNotStarted);
+}
+
+void Process::interrupt() const {
+  kill(pid_, SIGINT);
+}
+
+ProcessResult Process::wait() {
+  int status = 0;
+  while (waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
+  }
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readTextFile(folder_ / "out"),
+          readTextFile(folder_ / "err")};
+}
+
+ProcessResult runGlintmark(const std::vector<std::string>& arguments,
+                           const std::vector<std::string>& environment) {
+  return Process(arguments, environment).wait();
+}
+
+}  // namespace glintmark

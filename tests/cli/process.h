@@ -1,0 +1,35 @@
+// Runs the built glintmark program as its users do.
+#pragma once
+#include <sys/types.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/report/temp_folder.h"
+
+namespace glintmark {
+
+struct ProcessResult {
+  int exit_code = -1;  // -1: ended by a signal
+  std::string out, err;
+};
+
+/// A started program; stdin is empty, stdout and stderr go to files.
+class Process {
+ public:
+  /// `environment` holds "NAME=value" entries added to this process's own.
+  explicit Process(const std::vector<std::string>& arguments,
+                   const std::vector<std::string>& environment = {});
+  void interrupt() const;
+  ProcessResult wait();
+
+ private:
+  TempFolder folder_;
+  pid_t pid_ = -1;
+};
+
+/// Starts glintmark with `arguments` and waits for it.
+ProcessResult runGlintmark(const std::vector<std::string>& arguments,
+                           const std::vector<std::string>& environment = {});
+
+}  // namespace glintmark

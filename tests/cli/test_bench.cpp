@@ -1,0 +1,124 @@
+// bench zk16 on small pictures: files, resuming, interruption.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <set>
+#include <sstream>
+#include <thread>
+
+#include "host/report/atomic_file.h"
+#include "host/report/records.h"
+#include "tests/cli/process.h"
+
+namespace glintmark {
+namespace {
+
+using std::chrono::steady_clock;
+
+std::vector<std::string> benchArguments(const TempFolder& folder,
+                                        const std::vector<std::string>& more) {
+  std::vector<std::string> arguments = {"bench", "zk16",       "--quiet", "--scene", "screen_plane",
+                                        "-o",    folder / "r", "--size",  "320x180"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+std::size_t lineCount(const std::filesystem::path& file) {
+  if (!std::filesystem::exists(file)) return 0;
+  const std::string text = readTextFile(file);
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+// Seconds that a small view may take before the test gives up, far above the usual one or two.
+constexpr std::chrono::seconds kPatience{120};
+
+bool waitForLines(const std::filesystem::path& file, std::size_t lines) {
+  const auto give_up = steady_clock::now() + kPatience;
+  while (steady_clock::now() < give_up) {
+    if (lineCount(file) >= lines) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return false;
+}
+
+TEST(Bench, WritesEveryFile) {
+  const TempFolder folder;
+  const ProcessResult result = runGlintmark(benchArguments(
+      folder, {"--reps", "3", "--json", folder / "copy.json", "--csv", folder / "copy.csv"}));
+  ASSERT_EQ(result.exit_code, 0) << result.err << result.out;
+  EXPECT_EQ(result.err, "");
+
+  const Results results = readResults(folder / "r/results.json");
+  EXPECT_GT(results.run.peak_gflops, 0);
+  EXPECT_FALSE(results.run.device.empty());
+  std::set<std::string> metrics;
+  for (const Record& record : results.records) {
+    EXPECT_TRUE(record.valid) << record.case_ << " " << record.metric << ": " << record.note;
+    EXPECT_FALSE(record.paper && record.metric == "shading_ms");  // the paper's is 1920x1080
+    if (record.case_ == "screen_plane/steep") metrics.insert(record.metric);
+    EXPECT_TRUE(record.config.contains("kernels"));
+  }
+  for (const char* metric :
+       {"shading_ms", "shading_event_ms", "ns_per_cell", "speedup_vs_w1", "cells_min", "cells_mean",
+        "cells_max", "guard_hits", "raster_ms", "upload_ms", "readback_ms", "build_ms",
+        "first_enqueue_ms", "triangles", "covered_px", "buffer_bytes_per_px"}) {
+    EXPECT_TRUE(metrics.contains(metric)) << metric;
+  }
+  EXPECT_EQ(lineCount(folder / "r/records.jsonl"), results.records.size() + 1);
+  EXPECT_EQ(lineCount(folder / "r/results.csv"), results.records.size() + 1);
+  EXPECT_EQ(readTextFile(folder / "copy.json"), readTextFile(folder / "r/results.json"));
+  EXPECT_EQ(readTextFile(folder / "copy.csv"), readTextFile(folder / "r/results.csv"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "r/cells_screen_plane_steep.png"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "r/cells_screen_plane_grazing.png"));
+
+  std::istringstream table(readTextFile(folder / "r/table.txt"));
+  for (std::string line; std::getline(table, line);) EXPECT_LE(line.size(), 100u) << line;
+}
+
+TEST(Bench, InterruptKeepsRecordsAndResumeCompletesThem) {
+  const TempFolder folder;
+  const auto arguments = benchArguments(folder, {"--reps", "25"});
+  Process process(arguments);
+  // The first view's records are on the disk; the second is being measured.
+  ASSERT_TRUE(waitForLines(folder / "r/records.jsonl", 2));
+  process.interrupt();
+  const ProcessResult interrupted = process.wait();
+  EXPECT_EQ(interrupted.exit_code, 130) << interrupted.err << interrupted.out;
+  EXPECT_TRUE(interrupted.err.starts_with("glintmark: interrupted; 1 of 2 views are kept"))
+      << interrupted.err;
+  EXPECT_NE(interrupted.err.find("--resume"), std::string::npos) << interrupted.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "r/results.json"));
+  const std::string kept = readTextFile(folder / "r/records.jsonl");
+
+  auto resume = arguments;
+  resume.push_back("--resume");
+  const ProcessResult resumed = runGlintmark(resume);
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_TRUE(readTextFile(folder / "r/records.jsonl").starts_with(kept));
+  std::set<std::string> cases;
+  for (const Record& record : readResults(folder / "r/results.json").records) {
+    cases.insert(record.case_);
+  }
+  EXPECT_EQ(cases, (std::set<std::string>{"screen_plane/steep", "screen_plane/grazing"}));
+
+  // Nothing is left to measure now: the log stays as it is.
+  const std::string whole = readTextFile(folder / "r/records.jsonl");
+  EXPECT_EQ(runGlintmark(resume).exit_code, 0);
+  EXPECT_EQ(readTextFile(folder / "r/records.jsonl"), whole);
+}
+
+TEST(Bench, DamagedLogIsAnErrorOnlyForResume) {
+  const TempFolder folder;
+  std::filesystem::create_directory(folder / "r");
+  writeFile(folder / "r/records.jsonl", "{\"schema\":\"glintmark.results/7\",\"run\":{}}\n");
+  const ProcessResult resumed = runGlintmark(benchArguments(folder, {"--resume"}));
+  EXPECT_EQ(resumed.exit_code, 2);
+  EXPECT_NE(resumed.err.find("glintmark.results/7"), std::string::npos) << resumed.err;
+  const ProcessResult fresh =
+      runGlintmark(benchArguments(folder, {"--reps", "1", "--view", "steep"}));
+  EXPECT_EQ(fresh.exit_code, 0) << fresh.err;
+}
+
+}  // namespace
+}  // namespace glintmark

@@ -1,0 +1,127 @@
+// render and heatmap on small pictures.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "host/report/atomic_file.h"
+#include "host/report/cell_statistics.h"
+#include "host/report/image_io.h"
+#include "tests/cli/process.h"
+
+namespace glintmark {
+namespace {
+
+ProcessResult runQuietly(std::vector<std::string> arguments) {
+  arguments.push_back("--quiet");
+  const ProcessResult result = runGlintmark(arguments);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  return result;
+}
+
+std::vector<std::string> linesOf(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST(Render, ExrHoldsRadiance) {
+  const TempFolder folder;
+  runQuietly({"render", "screen_plane", "-o", folder / "a.exr", "--size", "64x36"});
+  const Image image = readImage(folder / "a.exr");
+  EXPECT_EQ(image.width, 64);
+  EXPECT_EQ(image.height, 36);
+  EXPECT_EQ(image.channels, 4);
+  double sum = 0;
+  for (const float value : image.pixels) {
+    EXPECT_TRUE(std::isfinite(value) && value >= 0);
+    sum += value;
+  }
+  EXPECT_GT(sum, 64 * 36);  // the plane covers every pixel: alpha alone adds up to that
+  EXPECT_EQ(folder.entryCount(), 1u);
+}
+
+TEST(Render, PngAndPlanes) {
+  const TempFolder folder;
+  const ProcessResult result =
+      runQuietly({"render", "screen_plane", "-o", folder / "a.png", "--aov", folder / "planes.exr",
+                  "--size", "65x37", "--view", "grazing", "--star"});
+  EXPECT_NE(result.out.find("screen_plane/grazing 65x37: raster "), std::string::npos);
+  EXPECT_EQ(readImage(folder / "a.png").width, 65);
+  const Image planes = readImage(folder / "planes.exr");
+  EXPECT_EQ(planes.height, 37);
+  for (const char* name : {"material", "u.frac", "dudx", "dvdy", "normal.y"}) {
+    EXPECT_NE(std::ranges::find(planes.channel_names, name), planes.channel_names.end()) << name;
+  }
+}
+
+TEST(Render, SameCommandSamePicture) {
+  const TempFolder folder;
+  for (const char* name : {"a.exr", "b.exr"}) {
+    runQuietly({"render", "screen_plane", "-o", folder / name, "--size", "64x36"});
+  }
+  EXPECT_EQ(readImage(folder / "a.exr").pixels, readImage(folder / "b.exr").pixels);
+}
+
+TEST(Render, GlintsStarAndSettingsChangeThePicture) {
+  const TempFolder folder;
+  const std::vector<std::string> base = {"render", "screen_plane", "--size", "64x36"};
+  const auto render = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = base;
+    arguments.insert(arguments.end(), {"-o", folder / "a.exr"});
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    runQuietly(arguments);
+    return readImage(folder / "a.exr").pixels;
+  };
+  const std::vector<float> plain = render({});
+  EXPECT_NE(plain, render({"--no-glints"}));
+  EXPECT_NE(plain, render({"--method", "exact"}));
+  EXPECT_NE(plain, render({"--set", "material.glitter.log_density=4"}));
+  EXPECT_EQ(plain, render({"--no-star"}));
+  EXPECT_EQ(plain, render({"--threads", "1"}));
+}
+
+TEST(Heatmap, FilesAgreeWithTheSummary) {
+  const TempFolder folder;
+  const ProcessResult result =
+      runQuietly({"heatmap", "screen_plane", "--view", "grazing", "--size", "64x36", "-o",
+                  folder / "a.png", "--exr", folder / "a.exr"});
+  const CellDistribution cells = cellDistribution(readImage(folder / "a.exr"));
+  EXPECT_EQ(cells.glint_px, 64u * 36u);
+  EXPECT_GE(cells.min, 8);
+  EXPECT_LE(cells.max, 64);
+  std::istringstream summary(linesOf(result.out).at(1));
+  std::string word;
+  double min = 0, mean = 0, max = 0;
+  summary >> word >> min >> word >> mean >> word >> max;
+  EXPECT_EQ(min, cells.min);
+  EXPECT_NEAR(mean, cells.mean, 1e-3);
+  EXPECT_EQ(max, cells.max);
+  EXPECT_GE(readImage(folder / "a.png").height, 36 + 20);
+}
+
+TEST(Heatmap, SweepTakesMoreCellsTowardsTheHorizon) {
+  const TempFolder folder;
+  runQuietly({"heatmap", "--sweep-angle", "--size", "64x36", "-o", folder / "a.png", "--csv",
+              folder / "a.csv"});
+  const std::vector<std::string> lines = linesOf(readTextFile(folder / "a.csv"));
+  ASSERT_EQ(lines.size(), 14u);  // header and 13 angles
+  EXPECT_EQ(lines[0], "angle_deg,cells_min,cells_mean,cells_max,guard_hits,ns_per_cell");
+  EXPECT_TRUE(lines[1].starts_with("90,8,8,8,0,")) << lines[1];  // [ZK16] Sect. 5: 8 at best
+  EXPECT_TRUE(lines[13].starts_with("1,")) << lines[13];
+  EXPECT_GT(std::stod(lines[13].substr(2)), 16);
+  EXPECT_GE(readImage(folder / "a.png").width, 13 * 64);
+}
+
+TEST(Heatmap, ScenesWithoutGlintsAreAnError) {
+  const ProcessResult result = runGlintmark(
+      {"heatmap", "screen_plane", "--size", "64x36", "--set", "material.glitter.type=smooth"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("no glint material"), std::string::npos) << result.err;
+}
+
+}  // namespace
+}  // namespace glintmark

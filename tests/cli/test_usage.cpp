@@ -1,0 +1,120 @@
+// Help, and what bad usage gives: one clear sentence, the right exit code, no files.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "host/report/atomic_file.h"
+#include "tests/cli/process.h"
+
+namespace glintmark {
+namespace {
+
+// The program must end with `exit_code`, nothing on stdout, and one line on stderr that starts with
+// its name and has every one of `parts`.
+void expectError(const std::vector<std::string>& arguments, int exit_code,
+                 const std::vector<std::string>& parts,
+                 const std::vector<std::string>& environment = {}) {
+  const ProcessResult result = runGlintmark(arguments, environment);
+  EXPECT_EQ(result.exit_code, exit_code) << result.err;
+  EXPECT_EQ(result.out, "");
+  EXPECT_TRUE(result.err.starts_with("glintmark: ")) << result.err;
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  for (const std::string& part : parts) {
+    EXPECT_NE(result.err.find(part), std::string::npos) << "no '" << part << "' in " << result.err;
+  }
+}
+
+TEST(Usage, HelpHasExamples) {
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"--help"},
+                                                {"info", "--help"},
+                                                {"render", "--help"},
+                                                {"heatmap", "--help"},
+                                                {"bench", "--help"}}) {
+    const ProcessResult result = runGlintmark(words);
+    EXPECT_EQ(result.exit_code, 0) << words[0];
+    EXPECT_NE(result.out.find("Examples:\n  glintmark "), std::string::npos) << words[0];
+    EXPECT_EQ(result.err, "");
+  }
+}
+
+TEST(Usage, Version) {
+  const ProcessResult result = runGlintmark({"--version"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_TRUE(result.out.starts_with("glintmark 0.")) << result.out;
+}
+
+TEST(Usage, UnknownNamesListTheKnownOnes) {
+  expectError({}, 2, {"no command", "render", "bench"});
+  expectError({"paint"}, 2, {"'paint'", "info, render, heatmap, bench"});
+  expectError({"render", "snow", "-o", "a.png", "--fast"}, 2, {"'--fast'", "--view", "--device"});
+  expectError({"render", "snow", "sand", "-o", "a.png"}, 2, {"'sand'", "too many"});
+  expectError({"render", "nowhere", "-o", "a.png"}, 2, {"nowhere", "screen_plane", "snow"});
+  expectError({"render", "screen_plane", "-o", "a.png", "--view", "up"}, 2,
+              {"'up'", "steep", "grazing"});
+  expectError({"render", "screen_plane", "-o", "a.png", "--method", "best"}, 2,
+              {"'best'", "zk16 and exact"});
+  expectError({"heatmap", "--scale", "log"}, 2, {"'log'", "fixed", "auto"});
+  expectError({"bench", "zk17"}, 2, {"'zk17'", "zk16"});
+  expectError({"bench", "--scene", "moon"}, 2, {"'moon'", "screen_plane, snow, dress, car"});
+  expectError({"bench", "--view", "up"}, 2, {"'up'", "steep, grazing"});
+}
+
+TEST(Usage, MissingAndMalformedValues) {
+  expectError({"render"}, 2, {"scene", "render --help"});
+  expectError({"render", "snow"}, 2, {"--output", "required"});
+  expectError({"bench", "--reps", "many"}, 2, {"--reps", "many"});
+  expectError({"bench", "--reps", "0"}, 2, {"--reps 0"});
+  expectError({"--width", "3", "info"}, 2, {"--width 3", "1, 4, 8 or 16"});
+  expectError({"render", "screen_plane", "-o", "a.png", "--exposure", "0"}, 2, {"--exposure 0"});
+}
+
+TEST(Usage, Sizes) {
+  for (const char* size : {"0x0", "1000000x1", "-1x5", "64", "64x", "x36", "64x36x1", "ax36", ""}) {
+    expectError({"render", "screen_plane", "-o", "a.png", "--size", size}, 2,
+                {"--size '" + std::string(size) + "'", "1920x1080"});
+  }
+}
+
+TEST(Usage, Devices) {
+  expectError({"--device", "no such device", "info"}, 3, {"no such device", "0: "});
+  expectError({"info"}, 3, {"no OpenCL device"}, {"OCL_ICD_VENDORS=/nonexistent"});
+  expectError({"bench", "-o", "unused_results_folder"}, 3, {"no OpenCL device"},
+              {"OCL_ICD_VENDORS=/nonexistent"});
+  EXPECT_FALSE(std::filesystem::exists("unused_results_folder"));
+}
+
+TEST(Usage, SceneFiles) {
+  const TempFolder folder;
+  writeFile(folder / "cut.toml", "description = \"a\"\n[mesh\n");
+  writeFile(
+      folder / "typo.toml",
+      "descriptino = \"a\"\n" + readTextFile(GLINTMARK_SOURCE_DIR "/scenes/screen_plane.toml"));
+  const std::string picture = folder / "a.png";
+  expectError({"render", folder / "cut.toml", "-o", picture}, 2, {"cut.toml", "2"});
+  expectError({"render", folder / "typo.toml", "-o", picture}, 2, {"descriptino", "description"});
+  expectError({"render", folder / "none.toml", "-o", picture}, 2, {"none.toml"});
+  expectError({"render", "screen_plane", "-o", picture, "--mesh", folder / "none.obj"}, 2,
+              {"none.obj"});
+  expectError({"render", "screen_plane", "-o", picture, "--set", "mesh.colour=1"}, 2, {"colour"});
+  EXPECT_FALSE(std::filesystem::exists(picture));
+}
+
+TEST(Usage, OutputsAreCheckedBeforeWork) {
+  const TempFolder folder;
+  writeFile(folder / "file", "");
+  expectError({"render", "screen_plane", "-o", folder / "a.jpg"}, 2, {"a.jpg", ".exr or .png"});
+  expectError({"render", "screen_plane", "-o", folder / "none/a.png"}, 2, {"there is no folder"});
+  expectError({"render", "screen_plane", "-o", folder / "file/a.png"}, 2, {"file/a.png"});
+  expectError({"render", "screen_plane", "-o", folder / "a.png", "--aov", folder / "b.png"}, 2,
+              {"b.png", ".exr"});
+  expectError({"heatmap", "-o", folder / "a.exr"}, 2, {"a.exr", ".png"});
+  expectError({"heatmap", "--csv", folder / "a.csv"}, 2, {"--sweep-angle"});
+  expectError({"heatmap", "--sweep-angle", "--exr", folder / "a.exr"}, 2, {"--sweep-angle"});
+  expectError({"bench", "-o", folder / "file"}, 2, {(folder / "file").string()});
+  expectError({"bench", "-o", "/proc/glintmark"}, 2, {"/proc/glintmark"});
+  expectError({"bench", "-o", folder / "r", "--json", folder / "none/a.json"}, 2, {"none/a.json"});
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.png"));
+}
+
+}  // namespace
+}  // namespace glintmark
