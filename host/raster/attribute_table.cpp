@@ -2,6 +2,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "host/raster/attribute_table.cpp"
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -144,12 +145,32 @@ HWY_INLINE void setUpFrame(const TriangleMesh& mesh, const VI (&v)[3], VD det, s
              di, reinterpret_cast<std::int32_t*>(table.mirrored) + slot);
 }
 
+// Asks the cache for the corners of triangles [first, last).
+HWY_INLINE void prefetchVertices(const TriangleMesh& mesh,
+                                 const std::uint32_t* HWY_RESTRICT triangles, std::size_t first,
+                                 std::size_t last, bool with_frame) {
+  for (std::size_t i = first; i < last; ++i) {
+    const glm::uvec3& t = mesh.triangles[triangles[i]];
+    for (int corner = 0; corner < 3; ++corner) {
+      hwy::Prefetch(&mesh.positions[t[corner]]);
+      hwy::Prefetch(&mesh.uvs[t[corner]]);
+      if (!with_frame) continue;
+      hwy::Prefetch(&mesh.normals[t[corner]]);
+      hwy::Prefetch(&mesh.tangents[t[corner]]);
+    }
+  }
+}
+
 void setUpAll(const TriangleMesh& mesh, const Camera& camera,
               const std::uint32_t* HWY_RESTRICT triangles, std::size_t count, bool with_frame,
               AttributeTable& table) {
   const I32 di;
   const auto* indices = reinterpret_cast<const std::int32_t*>(mesh.triangles.data());
+  const std::size_t ahead = 2 * hn::Lanes(di);
+  prefetchVertices(mesh, triangles, 0, std::min(count, ahead), with_frame);
   for (std::size_t slot = 0; slot < count; slot += hn::Lanes(di)) {
+    prefetchVertices(mesh, triangles, slot + ahead, std::min(count, slot + ahead + hn::Lanes(di)),
+                     with_frame);
     const VI t = hn::LoadU(di, reinterpret_cast<const std::int32_t*>(triangles) + slot);
     const VI at = hn::Add(hn::Add(t, t), t);
     const VI v[3] = {hn::GatherIndex(di, indices, at), hn::GatherIndex(di, indices + 1, at),

@@ -6,6 +6,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "host/raster/pixel_attributes.cpp"
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -173,13 +174,28 @@ HWY_INLINE void evaluateFrames(const AttributeTable& table, const std::int32_t* 
   }
 }
 
+// Copies a block to its plane. Whole blocks are aligned there and bypass the cache: planes are
+// larger than the cache, and what is written in full need not be read first.
+HWY_INLINE void copyBlock(const std::uint32_t* HWY_RESTRICT from, std::size_t count,
+                          std::uint32_t* HWY_RESTRICT to) {
+  const FrameU du;
+  if (count != kBlock) {
+    std::copy(from, from + count, to);
+    return;
+  }
+  for (std::size_t i = 0; i < kBlock; i += hn::Lanes(du))
+    hn::Stream(hn::LoadU(du, from + i), du, to + i);
+}
+
 void writeAll(const AttributeTable& table, const TilePixels& pixels, std::uint32_t first,
               std::uint32_t count, std::size_t entry, const PixelPlanes& out) {
   const bool with_frame = out.mask.has(Plane::kFrame0) || out.mask.has(Plane::kFrame1);
   const bool with_attributes = !(out.mask == PlaneMask{Plane::kPixel});
   Block block;
-  for (std::uint32_t done = 0; done < count; done += kBlock) {
-    const std::size_t n = std::min<std::size_t>(kBlock, count - done);
+  std::size_t n = 0;
+  for (std::size_t done = 0; done < count; done += n) {
+    // The first block is short where that aligns the others.
+    n = std::min<std::size_t>(kBlock - (entry + done) % kBlock, count - done);
     const std::uint32_t* pixel = pixels.pixels + first + done;
     const auto* slots = reinterpret_cast<const std::int32_t*>(pixels.slots + first + done);
     if (with_attributes)
@@ -191,9 +207,10 @@ void writeAll(const AttributeTable& table, const TilePixels& pixels, std::uint32
       const auto plane = static_cast<Plane>(p);
       if (!out.mask.has(plane)) continue;
       const std::uint32_t* from = plane == Plane::kPixel ? pixel : block.planes[p];
-      std::memcpy(out.plane(plane).data() + entry + done, from, n * sizeof(std::uint32_t));
+      copyBlock(from, n, out.plane(plane).data() + entry + done);
     }
   }
+  hwy::FlushStream();
 }
 
 }  // namespace glintmark::HWY_NAMESPACE

@@ -18,6 +18,7 @@ struct TilePixels {
   static constexpr std::size_t kRoom = kTilePixels + kListSlack;
   std::uint32_t triangle_count = 0;
   std::uint32_t triangles[kRoom];  // slot -> triangle; a slot is a triangle seen in this tile
+  std::uint32_t slot_materials[kRoom];
   std::uint32_t pixel_count = 0;
   std::uint32_t slots[kRoom];   // of each covered pixel
   std::uint32_t pixels[kRoom];  // y << 16 | x in the image

@@ -2,6 +2,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "host/raster/tile_visibility.cpp"
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -18,9 +19,14 @@ using VI = hn::Vec<I32>;
 // A row of pixels is tested in vectors that may start anywhere, so rows have room for one more.
 constexpr int kRowStride = kTileSize_px + 16;
 
+// Rows are drawn in groups of this many. The rows a small triangle does not reach cost less than a
+// mispredicted end of a loop, and edges alone decide what is covered.
+constexpr int kRowGroup = 4;
+constexpr int kRows = kTileSize_px + kRowGroup - 1;
+
 struct TileBuffer {
-  alignas(64) float depth[kTileSize_px * kRowStride];
-  alignas(64) std::int32_t nearest[kTileSize_px * kRowStride];
+  alignas(64) float depth[kRows * kRowStride];
+  alignas(64) std::int32_t nearest[kRows * kRowStride];
 };
 
 // Up to one vector of triangles, ready to draw into one tile. Edge i is inside where
@@ -168,26 +174,32 @@ HWY_INLINE void drawTriangle(const TriangleBatch& batch, std::size_t lane, std::
     };
     auto e0 = edge(0), e1 = edge(1), e2 = edge(2);
     const auto z_x = hn::Mul(hn::Set(df, batch.z_dx[lane]), hn::ConvertTo(df, xs));
-    for (int y = y0; y <= y1; ++y) {
+    const auto draw_row = [&](int y) HWY_ATTR {
       const int at = y * kRowStride + x;
       const auto z =
           hn::Add(hn::Set(df, batch.z[lane] + batch.z_dy[lane] * static_cast<float>(y)), z_x);
       const auto outside = hn::MaskFromVec(hn::BroadcastSignBit(hn::Or3(e0, e1, e2)));
       const auto pass =
           hn::AndNot(hn::RebindMask(df, outside), hn::Gt(z, hn::LoadU(df, tile.depth + at)));
-      // Depth is private to the tile: no other thread writes beside it.
+      // The buffer is private to the tile: no other thread writes beside it.
       hn::BlendedStore(z, pass, df, tile.depth + at);
       hn::BlendedStore(entry_v, hn::RebindMask(di, pass), di, tile.nearest + at);
       e0 = hn::Add(e0, b0);
       e1 = hn::Add(e1, b1);
       e2 = hn::Add(e2, b2);
+    };
+    for (int y = y0; y <= y1; y += kRowGroup) {
+      draw_row(y);
+      draw_row(y + 1);
+      draw_row(y + 2);
+      draw_row(y + 3);
     }
   }
 }
 
 void clearTile(TileBuffer& tile) {
-  std::fill_n(tile.depth, kTileSize_px * kRowStride, -std::numeric_limits<float>::infinity());
-  std::fill_n(tile.nearest, kTileSize_px * kRowStride, static_cast<std::int32_t>(kNoEntry));
+  std::fill_n(tile.depth, kRows * kRowStride, -std::numeric_limits<float>::infinity());
+  std::fill_n(tile.nearest, kRows * kRowStride, static_cast<std::int32_t>(kNoEntry));
 }
 
 // Copies the rows to `nearest`, with kNoEntry outside the image, and counts covered pixels.
@@ -209,6 +221,23 @@ std::uint32_t storeTile(const TileBuffer& tile, int width_px, int height_px,
   return static_cast<std::uint32_t>(covered);
 }
 
+// Asks the cache for what gatherUnclipped will read of the entries [first, first + count).
+HWY_INLINE void prefetchTriangles(const ProjectedMesh& mesh, std::span<const std::uint32_t> entries,
+                                  std::size_t first, std::size_t count) {
+  const std::size_t last = std::min(first + count, entries.size());
+  for (std::size_t i = first; i < last; ++i)
+    if (!(entries[i] & kClippedBit)) hwy::Prefetch(&mesh.mesh->triangles[entries[i]]);
+}
+HWY_INLINE void prefetchVertices(const ProjectedMesh& mesh, std::span<const std::uint32_t> entries,
+                                 std::size_t first, std::size_t count) {
+  const std::size_t last = std::min(first + count, entries.size());
+  for (std::size_t i = first; i < last; ++i) {
+    if (entries[i] & kClippedBit) continue;
+    const glm::uvec3& t = mesh.mesh->triangles[entries[i]];
+    for (int corner = 0; corner < 3; ++corner) hwy::Prefetch(&mesh.vertices[t[corner]]);
+  }
+}
+
 std::uint32_t rasterizeOneTile(const ProjectedMesh& mesh, const TileBins& bins, std::size_t tile,
                                std::uint32_t* HWY_RESTRICT nearest) {
   const I32 di;
@@ -223,7 +252,11 @@ std::uint32_t rasterizeOneTile(const ProjectedMesh& mesh, const TileBins& bins, 
   clearTile(buffer);
   const std::span<const std::uint32_t> entries = bins.entries(tile);
   TriangleBatch batch;
+  prefetchTriangles(mesh, entries, 0, 4 * lanes);
+  prefetchVertices(mesh, entries, 0, 2 * lanes);
   for (std::size_t i = 0; i < entries.size(); i += lanes) {
+    prefetchTriangles(mesh, entries, i + 4 * lanes, lanes);
+    prefetchVertices(mesh, entries, i + 2 * lanes, lanes);
     const VI entry = hn::LoadU(di, reinterpret_cast<const std::int32_t*>(entries.data()) + i);
     const bool any_clipped = !hn::AllFalse(di, hn::Lt(entry, hn::Zero(di)));
     const Corners corners =

@@ -61,8 +61,8 @@ HWY_INLINE void cullVector(const ProjectedMesh& mesh, VI vertex0, VI vertex1, VI
   pixelRange(y, p.origin_y, p.height_px, y0, y1);
   const auto no_pixel = hn::Or(hn::Gt(x0, x1), hn::Gt(y0, y1));
   const VI visible = hn::IfThenZeroElse(no_pixel, shown_i);
-  const VI result = hn::IfThenElse(
-      clip, hn::Set(di, static_cast<std::int32_t>(CullResult::kClip)), visible);
+  const VI result =
+      hn::IfThenElse(clip, hn::Set(di, static_cast<std::int32_t>(CullResult::kClip)), visible);
 
   hn::StoreU(result, di, reinterpret_cast<std::int32_t*>(batch.result) + at);
   hn::StoreU(x0, di, batch.x0 + at);
