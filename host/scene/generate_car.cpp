@@ -211,6 +211,18 @@ void addLamp(MeshBuilder& builder, double end, double side) {
       UvLayout::kArcLength);
 }
 
+/// Closes nose and tail below their edge.
+void addApron(MeshBuilder& builder, double end) {
+  builder.addPatch(
+      builder.part("apron"), 24, 8,
+      [end](double s, double t) {
+        const double z = end * 0.73 * (1 - 2 * s);
+        return SurfacePoint{{end * (2.20 + 0.23 * std::sqrt(1 - 0.9 * square(1 - t))),
+                             glm::mix(0.25, 0.575, t), z}};
+      },
+      UvLayout::kArcLength);
+}
+
 void addUnderbody(MeshBuilder& builder) {
   builder.addPatch(
       builder.part("underbody"), 40, 24,
@@ -238,6 +250,7 @@ MeshMaker readCar(SceneTable& mesh) {
                      UvLayout::kArcLength);
     for (const double end : {1.0, -1.0}) {
       addBumper(builder, end);
+      addApron(builder, end);
       for (const double side : {1.0, -1.0}) {
         addWheel(builder, end * kAxle, side);
         addLamp(builder, end, side);
@@ -250,7 +263,10 @@ MeshMaker readCar(SceneTable& mesh) {
           return SurfacePoint{{(s - 0.5) * floor_size, 0, (0.5 - t) * floor_size}};
         },
         UvLayout::kArcLength);
-    return builder.finish();
+    // Grooves run along u: turned by 90 degrees, the charts have u across the car.
+    PartMesh car = builder.finish();
+    for (glm::dvec2& uv : car.mesh.uvs) uv = {uv.y, -uv.x};
+    return car;
   };
 }
 

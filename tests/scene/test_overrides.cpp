@@ -6,16 +6,16 @@ namespace {
 
 TEST(Overrides, SetValuesByNameAndPosition) {
   const Scene scene =
-      load("snow", {"material.snow.size_variation=7", "material.0.intensity=0.5",
+      load("sand", {"material.sand.size_variation=7", "material.0.intensity=0.5",
                     "light.sun.half_angle_deg=30", "light.1.irradiance=[1, 2, 3]",
-                    "post.exposure=2", "mesh.columns=4", "view.steep.orbit.angle_deg=45"});
+                    "post.exposure=2", "mesh.columns=4", "view.front.orbit.angle_deg=45"});
   EXPECT_EQ(scene.materials[0].glint.size_variation, 7);
   EXPECT_EQ(scene.materials[0].glint.intensity, 0.5f);
   EXPECT_NEAR(scene.lights[0].direction.w, glm::radians(30.0), 1e-6);
   EXPECT_EQ(scene.lights[1].irradiance.z, 3);
   EXPECT_EQ(scene.post.exposure, 2);
-  EXPECT_EQ(scene.mesh.triangleCount(), 4u * 127 * 2);
-  EXPECT_EQ(scene.view("steep").orbit->angle_deg, 45);
+  EXPECT_EQ(scene.mesh.triangleCount(), 4u * 400 * 2);
+  EXPECT_EQ(scene.view("front").orbit->angle_deg, 45);
 }
 
 TEST(Overrides, LaterOnesWin) {
@@ -48,7 +48,7 @@ TEST(Overrides, BareWordsAreStrings) {
 TEST(Overrides, UnknownPathsListWhatIsKnown) {
   expectMessage(errorOf([] { load("snow", {"material.ice.f0=1"}); }),
                 {"--set material.ice.f0=1: material has no element ice, known are snow"});
-  expectMessage(errorOf([] { load("snow", {"light.2.irradiance=1"}); }),
+  expectMessage(errorOf([] { load("sand", {"light.2.irradiance=1"}); }),
                 {"light has no element 2, known are sun, sky"});
   expectMessage(errorOf([] { load("snow", {"material.snow.colour=1"}); }),
                 {"--set material.snow.colour=1: material.snow.colour is an unknown key", "albedo"});

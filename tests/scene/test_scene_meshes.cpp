@@ -132,6 +132,13 @@ TEST(SceneMeshes, PartsGoToTheirMaterials) {
   EXPECT_EQ(used.size(), car.materials.size());
 }
 
+// The timings of Table 1 are per light.
+TEST(SceneMeshes, TableOneScenesHaveOneLight) {
+  for (const char* name : {"screen_plane", "snow", "dress", "car", "sponza"}) {
+    EXPECT_EQ(load(name).lights.size(), 1u) << name;
+  }
+}
+
 TEST(SceneMeshes, ClosestPartRuleCounts) {
   const TemporaryFolder folder;
   const std::string more = "[[material]]\nname = 'b'\n[[material]]\nname = 'c'\n";
