@@ -28,26 +28,39 @@ HWY_INLINE hn::Vec<FrameI> quantizeFrame(hn::Vec<FrameF> value) {
   return hn::NearestInt(hn::Mul(value, hn::Set(FrameF(), static_cast<float>(kFrameScale))));
 }
 
-// Unit vector of quantized octahedral coordinates.
+// Direction of quantized octahedral coordinates, of length between kFrameScale / 2 and kFrameScale.
+// All components are whole numbers, so decoding is exact.
 HWY_INLINE FrameVector decodeOctahedral(hn::Vec<FrameI> qx, hn::Vec<FrameI> qy) {
   const FrameF d;
-  const auto zero = hn::Zero(d), one = hn::Set(d, 1.0f);
-  const auto scale = hn::Set(d, 1.0f / static_cast<float>(kFrameScale));
-  const auto ox = hn::Mul(hn::ConvertTo(d, qx), scale), oy = hn::Mul(hn::ConvertTo(d, qy), scale);
-  // From whole numbers, because 1 - |ox| - |oy| in floats loses what is left near the equator.
   const FrameI di;
-  const auto qz = hn::Sub(hn::Sub(hn::Set(di, kFrameScale), hn::Abs(qx)), hn::Abs(qy));
-  const auto z = hn::Mul(hn::ConvertTo(d, qz), scale);
-  const auto lower = hn::Lt(z, zero);
-  const auto x = hn::IfThenElse(
-      lower, hn::CopySign(hn::Sub(one, hn::Abs(oy)), hn::IfThenElse(hn::Lt(ox, zero), ox, one)),
-      ox);
-  const auto y = hn::IfThenElse(
-      lower, hn::CopySign(hn::Sub(one, hn::Abs(ox)), hn::IfThenElse(hn::Lt(oy, zero), oy, one)),
-      oy);
-  const auto squared = hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
-  const auto inverse = hn::Div(one, hn::Sqrt(squared));
-  return {hn::Mul(x, inverse), hn::Mul(y, inverse), hn::Mul(z, inverse)};
+  const auto scale = hn::Set(di, kFrameScale);
+  const auto rest_x = hn::Sub(scale, hn::Abs(qx)), rest_y = hn::Sub(scale, hn::Abs(qy));
+  const auto z = hn::Sub(rest_x, hn::Abs(qy));
+  const auto lower = hn::Lt(z, hn::Zero(di));
+  // Below the equator: 1 - |other|, with the sign of this one.
+  const auto x = hn::IfThenElse(hn::Lt(qx, hn::Zero(di)), hn::Neg(rest_y), rest_y);
+  const auto y = hn::IfThenElse(hn::Lt(qy, hn::Zero(di)), hn::Neg(rest_x), rest_x);
+  return {hn::ConvertTo(d, hn::IfThenElse(lower, x, qx)),
+          hn::ConvertTo(d, hn::IfThenElse(lower, y, qy)), hn::ConvertTo(d, z)};
+}
+
+// Sine and cosine of the tangent's angle, up to a common positive factor. With m = L n, s the sign
+// of n.z and k = L + |m.z|, the basis of Duff et al. 2017, Listing 3, times L k is
+//   b1 = (L k - m.x m.x,      -m.x m.y,  -s k m.x)
+//   b2 = (    -s m.x m.y, s (L k - m.y m.y),   -k m.y)
+// which needs no division.
+HWY_INLINE void tangentAngle(const FrameVector& m, const FrameVector& t, hn::Vec<FrameF>& cosine,
+                             hn::Vec<FrameF>& sine) {
+  const FrameF d;
+  const auto length =
+      hn::Sqrt(hn::Add(hn::Add(hn::Mul(m.x, m.x), hn::Mul(m.y, m.y)), hn::Mul(m.z, m.z)));
+  const auto k = hn::Add(length, hn::Abs(m.z));
+  const auto scale = hn::Mul(length, k);
+  const auto sign_bit = hn::And(m.z, hn::SignBit(d));
+  const auto common =
+      hn::Add(hn::Add(hn::Mul(m.x, t.x), hn::Mul(m.y, t.y)), hn::Xor(hn::Mul(k, t.z), sign_bit));
+  cosine = hn::Sub(hn::Mul(t.x, scale), hn::Mul(m.x, common));
+  sine = hn::Xor(hn::Sub(hn::Mul(t.y, scale), hn::Mul(m.y, common)), sign_bit);
 }
 
 // Packs a normal (need not be unit; where it is zero or not a number, +z is packed) and a tangent.
@@ -72,18 +85,8 @@ HWY_INLINE void packFrames(const FrameVector& normal, const FrameVector& tangent
   const auto qy =
       quantizeFrame(hn::IfThenElse(lower, hn::Mul(hn::Sub(one, hn::Abs(nx)), sign_y), ny));
 
-  // Duff et al. 2017, Listing 3, on the decoded normal.
-  const FrameVector n = decodeOctahedral(qx, qy);
-  const auto sign = hn::IfThenElse(hn::Lt(n.z, zero), minus_one, one);
-  const auto a = hn::Div(minus_one, hn::Add(sign, n.z));
-  const auto b = hn::Mul(hn::Mul(n.x, n.y), a);
-  const FrameVector b1{hn::Add(one, hn::Mul(sign, hn::Mul(hn::Mul(n.x, n.x), a))), hn::Mul(sign, b),
-                       hn::Neg(hn::Mul(sign, n.x))};
-  const FrameVector b2{b, hn::Add(sign, hn::Mul(hn::Mul(n.y, n.y), a)), hn::Neg(n.y)};
-  const auto dot = [](const FrameVector& p, const FrameVector& q) HWY_ATTR {
-    return hn::Add(hn::Add(hn::Mul(p.x, q.x), hn::Mul(p.y, q.y)), hn::Mul(p.z, q.z));
-  };
-  const auto c = dot(tangent, b1), s = dot(tangent, b2);
+  hn::Vec<FrameF> c, s;
+  tangentAngle(decodeOctahedral(qx, qy), tangent, c, s);
 
   // Diamond angle.
   const auto length = hn::Add(hn::Abs(c), hn::Abs(s));
