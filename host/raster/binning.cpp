@@ -22,15 +22,13 @@ class Collector {
 
   void add(std::uint32_t entry, const PixelRect& rect, const ScreenVertex& a, const ScreenVertex& b,
            const ScreenVertex& c) {
-    const int tx0 = rect.x0 / kTileSize_px, tx1 = rect.x1 / kTileSize_px;
-    const int ty0 = rect.y0 / kTileSize_px, ty1 = rect.y1 / kTileSize_px;
-    reserve(static_cast<std::size_t>(tx1 - tx0 + 1) * static_cast<std::size_t>(ty1 - ty0 + 1));
-    ++chunk_.drawn;
-    if (tx0 == tx1 || ty0 == ty1) {
-      for (int ty = ty0; ty <= ty1; ++ty)
-        for (int tx = tx0; tx <= tx1; ++tx) push(tx, ty, entry);
+    // Most triangles of a fine mesh.
+    if (((rect.x0 ^ rect.x1) | (rect.y0 ^ rect.y1)) < kTileSize_px) {
+      reserve(1);
+      ++chunk_.drawn;
+      push(rect.x0 / kTileSize_px, rect.y0 / kTileSize_px, entry);
     } else {
-      addTouched(entry, tx0, ty0, tx1, ty1, a, b, c);
+      addToManyTiles(entry, rect, a, b, c);
     }
   }
 
@@ -50,6 +48,20 @@ class Collector {
   }
 
  private:
+  void addToManyTiles(std::uint32_t entry, const PixelRect& rect, const ScreenVertex& a,
+                      const ScreenVertex& b, const ScreenVertex& c) {
+    const int tx0 = rect.x0 / kTileSize_px, tx1 = rect.x1 / kTileSize_px;
+    const int ty0 = rect.y0 / kTileSize_px, ty1 = rect.y1 / kTileSize_px;
+    reserve(static_cast<std::size_t>(tx1 - tx0 + 1) * static_cast<std::size_t>(ty1 - ty0 + 1));
+    ++chunk_.drawn;
+    if (tx0 == tx1 || ty0 == ty1) {
+      for (int ty = ty0; ty <= ty1; ++ty)
+        for (int tx = tx0; tx <= tx1; ++tx) push(tx, ty, entry);
+    } else {
+      addTouched(entry, tx0, ty0, tx1, ty1, a, b, c);
+    }
+  }
+
   void reserve(std::size_t more) {
     if (chunk_.entry_count + more > chunk_.entries.size())
       chunk_.entries.resize(std::max(chunk_.entry_count + more, 2 * chunk_.entries.size()));

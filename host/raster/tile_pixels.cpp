@@ -52,7 +52,7 @@ HWY_INLINE std::uint32_t appendPixels(const std::uint32_t* HWY_RESTRICT nearest,
       if constexpr (!kAll)
         wanted =
             hn::And(wanted, hn::Eq(hn::GatherIndex(di, materials, slot), hn::Set(di, material)));
-      const VI pixel = hn::Iota(di, first_pixel + (y << 16) + x);
+      const VI pixel = hn::Add(hn::Iota(di, 0), hn::Set(di, first_pixel + (y << 16) + x));
       if (hn::AllTrue(di, wanted)) {
         hn::StoreU(slot, di, slots + count);
         hn::StoreU(pixel, di, pixels + count);

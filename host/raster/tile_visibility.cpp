@@ -167,7 +167,7 @@ HWY_INLINE void drawTriangle(const TriangleBatch& batch, std::size_t lane, std::
   const auto b0 = hn::Set(di, batch.b[0][lane]), b1 = hn::Set(di, batch.b[1][lane]),
              b2 = hn::Set(di, batch.b[2][lane]);
   for (int x = x0; x <= x1; x += lanes) {
-    const auto xs = hn::Iota(di, x);
+    const auto xs = hn::Add(hn::Iota(di, 0), hn::Set(di, x));  // Iota of a variable is slow
     const auto edge = [&](int i) HWY_ATTR {
       return hn::Add(hn::Set(di, batch.c[i][lane] + batch.b[i][lane] * y0),
                      hn::Mul(hn::Set(di, batch.a[i][lane]), xs));
@@ -212,7 +212,7 @@ std::uint32_t storeTile(const TileBuffer& tile, int width_px, int height_px,
   for (int y = 0; y < kTileSize_px; ++y)
     for (int x = 0; x < kTileSize_px; x += lanes) {
       const int columns = y < height_px ? width_px : 0;
-      const auto in_image = hn::Lt(hn::Iota(di, x), hn::Set(di, columns));
+      const auto in_image = hn::Lt(hn::Iota(di, 0), hn::Set(di, columns - x));
       const auto value =
           hn::IfThenElse(in_image, hn::Load(di, tile.nearest + y * kRowStride + x), none);
       covered += hn::CountTrue(di, hn::Ne(value, none));
