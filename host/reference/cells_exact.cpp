@@ -50,20 +50,50 @@ std::int32_t wrap(std::int64_t index) {
   return static_cast<std::int32_t>(static_cast<std::uint64_t>(index));
 }
 
+constexpr double kLeastArea = 1e-6;       // of a cell, for a cell to count as touched
+constexpr double kMostColumns = 4096;     // per grid
+constexpr double kMostAspect = 4096;      // slimmer footprints are widened
+constexpr double kLeastExtent = 0x1p-28;  // uv; shorter edge vectors have no direction
+
+double longestEntry(const glm::dvec2& d) {
+  return std::max(std::abs(d.x), std::abs(d.y));
+}
+
+// A footprint of no area, or hardly any, becomes a thin box along its longer edge.
+PixelFootprint widened(const PixelFootprint& footprint) {
+  const glm::dvec2 x = footprint.duv_dx, y = footprint.duv_dy;
+  const double extent = std::max({longestEntry(x), longestEntry(y), kLeastExtent});
+  if (std::abs(x.x * y.y - x.y * y.x) >= extent * extent / kMostAspect) return footprint;
+  PixelFootprint box = footprint;
+  const glm::dvec2 longer = glm::dot(x, x) >= glm::dot(y, y) ? x : y;
+  box.duv_dx = longestEntry(longer) < kLeastExtent ? glm::dvec2(extent, 0) : longer;
+  box.duv_dy = glm::normalize(glm::dvec2(-box.duv_dx.y, box.duv_dx.x)) * cellSizeExact(footprint);
+  return box;
+}
+
 void visitGrid(const GridFootprint& grid, GridVisit& visit) {
   const glm::dvec2 x = 0.5 * grid.edge_x, y = 0.5 * grid.edge_y, c = grid.centre;
   const Polygon outline = {c - x - y, c + x - y, c + x + y, c - x + y};
-  double first_u = 0, last_u = 0;
-  cellRange(outline, 0, first_u, last_u);
-  for (double u = first_u; u <= last_u; u += 1.0) {
-    const Polygon column = clippedToSlab(outline, 0, u);
+  const glm::dvec2 box = glm::max(glm::abs(grid.edge_x), glm::abs(grid.edge_y));
+  const int along = box.y > box.x ? 1 : 0, across = 1 - along;
+  double first = 0, last = 0;
+  cellRange(outline, along, first, last);
+  const double columns = last - first + 1.0;
+  visit.limited = columns > kMostColumns;
+  const double taken = std::min(columns, kMostColumns);
+  for (double j = 0; j < taken; j += 1.0) {
+    const double column_index = first + std::floor((j + 0.5) * columns / taken);
+    const Polygon column = clippedToSlab(outline, along, column_index);
     if (column.empty()) continue;
-    double first_v = 0, last_v = 0;
-    cellRange(column, 1, first_v, last_v);
-    for (double v = first_v; v <= last_v; v += 1.0)
-      visit.cells.push_back({wrap(grid.base_u + static_cast<std::int64_t>(u)),
-                             wrap(grid.base_v + static_cast<std::int64_t>(v)),
-                             areaOf(clippedToSlab(column, 1, v))});
+    double low = 0, high = 0;
+    cellRange(column, across, low, high);
+    for (double i = low; i <= high; i += 1.0) {
+      const double area = areaOf(clippedToSlab(column, across, i));
+      if (area <= kLeastArea) continue;
+      const auto u = static_cast<std::int64_t>(along == 0 ? column_index : i);
+      const auto v = static_cast<std::int64_t>(along == 0 ? i : column_index);
+      visit.cells.push_back({wrap(grid.base_u + u), wrap(grid.base_v + v), area});
+    }
   }
 }
 
@@ -71,7 +101,8 @@ void visitGrid(const GridFootprint& grid, GridVisit& visit) {
 
 std::vector<GridVisit> visitExact(const PixelFootprint& footprint, const glm::dvec2& stretch) {
   std::vector<GridVisit> grids = gridsFor(cellSizeExact(footprint));
-  for (GridVisit& visit : grids) visitGrid(inGrid(footprint, stretch, visit.level), visit);
+  const PixelFootprint covered = widened(footprint);
+  for (GridVisit& visit : grids) visitGrid(inGrid(covered, stretch, visit.level), visit);
   return grids;
 }
 

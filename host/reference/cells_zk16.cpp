@@ -45,14 +45,18 @@ void visitGrid(const GridFootprint& grid, int ka, GridVisit& visit) {
   const int most = std::max(ka, 2);
   visit.limited = n > most;
   const int taken = std::min(n, most);
+  // Where the limit bites, the positions spread evenly over the n cells and each stands for the
+  // cell it lies in; weights then fall to 0 over one stride instead of one cell.
+  const double stride = static_cast<double>(n) / taken;
+  const double covered = std::max(f.extent, 1.0);
   const double slope = f.edge.x != 0 ? f.edge.y / f.edge.x : 0.0;
 
   for (int j = 0; j < taken; ++j) {
-    // Spread evenly and symmetrically where the limit bites.
-    const double step = visit.limited ? std::floor((j + 0.5) * n / taken) : j;
-    const double index = first + step;
-    const double distance = std::abs(index + 0.5 - f.centre.x);
-    const double along = std::clamp(1.0 + r - distance, 0.0, 1.0);
+    const double position = first + (j + 0.5) * stride;
+    const double index = std::floor(position);
+    visit.tied = visit.tied || (visit.limited && position == index);
+    const double reach = 0.5 * (covered + stride) - std::abs(position - f.centre.x);
+    const double along = std::clamp(reach / stride, 0.0, 1.0);
     const double across = f.centre.y + (index + 0.5 - f.centre.x) * slope - 0.5;
     const double below = std::floor(across);
     for (int side = 0; side < 2; ++side) {

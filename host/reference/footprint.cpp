@@ -39,7 +39,9 @@ void split(FixedCoordinate c, std::int32_t offset, double stretch, int level, st
            double& rest) {
   const long double coordinate =
       (static_cast<long double>(c.integer) + offset + std::ldexp(1.0L * c.fraction, -32)) * stretch;
-  const long double cells = std::ldexp(coordinate, -level);
+  // Stretched coordinates keep 32 bits of fraction.
+  const long double kept = std::ldexp(std::floor(std::ldexp(coordinate, 32)), -32);
+  const long double cells = std::ldexp(kept, -level);
   const long double below = std::floor(cells);
   whole = static_cast<std::int64_t>(below);
   rest = static_cast<double>(cells - below);

@@ -33,6 +33,7 @@ struct GridVisit {
   double mip_weight = 0;  // of this grid in the pixel
   std::vector<Cell> cells;
   bool limited = false;  // a guard cut the walk
+  bool tied = false;     // some position lies exactly between two columns, and rounding decides
 };
 
 /// Cell size s of method zk16 (K_a = `ka`) in uv, before rounding to powers of two.

@@ -22,20 +22,43 @@ std::int32_t floorToIndex(double x) {
   return static_cast<std::int32_t>(std::floor(std::clamp(x, -0x1p31, 0x1p31 - 1.0)));
 }
 
-// Share of reflecting microdetails in the pixel: Listing 1, lines 9 to 24.
-double pixelShare(std::span<const GridVisit> grids, double probability, HalfVectorIndex half,
-                  const Glints& glints, const glm::dvec2& stretch, bool exact) {
-  double share = 0;
-  for (const GridVisit& grid : grids) {
-    double sum = 0, weight = 0;
-    for (const Cell& cell : grid.cells) {
-      weight += cell.weight;
-      if (cell.weight > 0)
-        sum += cell.weight * cellShare(cell, grid.level, probability, half, glints, stretch, exact);
-    }
-    if (weight > 0) share += grid.mip_weight * sum / weight;
+// Mean above which some method rounds a normal variate; the smallest of the methods' limits.
+constexpr double kMostExactMean = 5;
+
+// What the draws of one pixel and light have in common.
+struct LightDraw {
+  double probability;
+  HalfVectorIndex half;
+  const Glints& glints;
+  glm::dvec2 stretch;
+  bool exact;
+};
+
+CellContent contentOf(const Cell& cell, int level, const LightDraw& draw) {
+  const double mean =
+      std::ldexp(draw.glints.density, 2 * level) / (draw.stretch.x * draw.stretch.y);
+  return cellContent(pairSeed(cellSeed(cell.u, cell.v), draw.half), mean,
+                     draw.glints.size_variation);
+}
+
+// Adds one grid's share of reflecting microdetails, relative to its expectation: Listing 1, lines
+// 10 to 24.
+double gridRatio(const GridVisit& grid, const LightDraw& draw, double& rounding) {
+  double sum = 0, weight = 0;
+  for (const Cell& cell : grid.cells) weight += cell.weight;
+  if (weight <= 0) return 0;
+  const double p = draw.probability;
+  for (const Cell& cell : grid.cells) {
+    if (cell.weight <= 0) continue;
+    const CellContent content = contentOf(cell, grid.level, draw);
+    const std::int64_t k = draw.exact ? drawExact(content.draw, content.count, p)
+                                      : drawZk16(content.draw, content.count, p);
+    const double one = cell.weight / weight / (content.expected * p);
+    sum += one * static_cast<double>(k);
+    if (content.expected * std::min(p, 1.0 - p) > kMostExactMean)
+      rounding = std::max(rounding, grid.mip_weight * one);
   }
-  return share;
+  return grid.mip_weight * sum;
 }
 
 }  // namespace
@@ -47,16 +70,6 @@ HalfVectorIndex halfVectorIndex(const glm::dvec3& half, const Glints& glints) {
   const double scale = 65536.0 / (1.0 + std::max(half.z, 0.0));
   return {glints.groove ? 0 : floorToIndex(half.x * scale / side.x),
           floorToIndex(half.y * scale / side.y)};
-}
-
-double cellShare(const Cell& cell, int level, double probability, HalfVectorIndex half,
-                 const Glints& glints, const glm::dvec2& stretch, bool exact) {
-  const double mean = std::ldexp(glints.density, 2 * level) / (stretch.x * stretch.y);
-  const CellContent content =
-      cellContent(pairSeed(cellSeed(cell.u, cell.v), half), mean, glints.size_variation);
-  const std::int64_t k = exact ? drawExact(content.draw, content.count, probability)
-                               : drawZk16(content.draw, content.count, probability);
-  return static_cast<double>(k) / content.expected;
 }
 
 PixelResult evaluatePixel(const SurfacePixel& pixel, const Glints& glints,
@@ -76,8 +89,10 @@ PixelResult evaluatePixel(const SurfacePixel& pixel, const Glints& glints,
     result.smooth += smooth;
     if (p <= kLeastProbability) continue;
     const HalfVectorIndex half = halfVectorIndex(glm::normalize(i + o), glints);
-    result.radiance += smooth * (pixelShare(grids, p, half, glints, stretch, options.exact) / p);
+    const LightDraw draw = {p, half, glints, stretch, options.exact};
     for (const GridVisit& grid : grids) {
+      result.radiance += smooth * gridRatio(grid, draw, result.rounding);
+      result.tied = result.tied || grid.tied;
       result.cells += static_cast<std::uint32_t>(grid.cells.size());
       result.limited = result.limited || grid.limited;
     }

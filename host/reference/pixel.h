@@ -45,14 +45,14 @@ struct PixelResult {
   glm::dvec3 smooth{0.0};   // what radiance averages to over many cells
   std::uint32_t cells = 0;  // visited, over all lights that reach the pixel
   bool limited = false;
+  bool tied = false;  // see GridVisit
+  /// What one microdetail more in the heaviest of the cells whose count is drawn from the normal
+  /// distribution adds to radiance / smooth: there k rounds a real number.
+  double rounding = 0;
 };
 
 /// Step 5 of "The draws": index of a half vector (unit, tangent frame).
 HalfVectorIndex halfVectorIndex(const glm::dvec3& half, const Glints& glints);
-
-/// Share of reflecting microdetails of one cell of grid `level`; expectation `probability`.
-double cellShare(const Cell& cell, int level, double probability, HalfVectorIndex half,
-                 const Glints& glints, const glm::dvec2& stretch, bool exact);
 
 PixelResult evaluatePixel(const SurfacePixel& pixel, const Glints& glints,
                           std::span<const PointLight> lights, const GlintMethodOptions& options);

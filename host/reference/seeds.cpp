@@ -8,6 +8,7 @@ namespace glintmark::reference {
 namespace {
 
 constexpr double kMostExpected = 0x1p30;
+const double kByteSumSigma = std::sqrt(4.0 * (256.0 * 256.0 - 1.0) / 12.0);  // 147.8
 constexpr double kLeastFactor = 1.0 / 32.0;
 
 // (a + b) >> 16, arithmetic, wrapping like 32-bit integers.
@@ -48,7 +49,7 @@ double uniformOf(std::uint32_t h) {
 
 double gaussOf(std::uint32_t h) {
   const std::uint32_t sum = (h & 0xFFu) + (h >> 8 & 0xFFu) + (h >> 16 & 0xFFu) + (h >> 24);
-  return (static_cast<double>(sum) - 510.0) / 147.8;
+  return (static_cast<double>(sum) - 510.0) / kByteSumSigma;
 }
 
 CellContent cellContent(std::uint32_t d, double mean, double size_variation) {

@@ -1,0 +1,34 @@
+// Single functions of the kernels over arrays, on the device.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "host/ocl/kernel_config.h"
+
+namespace glintmark {
+
+/// As numbered in glint_probes.cl.
+enum class MathFunction : std::int32_t { kExp2, kLog2, kReciprocal, kRsqrt, kNormalUpperQuantile };
+
+/// y = function(x) by the kernels of `width` lanes.
+std::vector<float> probeMath(MathFunction function, const std::vector<float>& x, int width);
+
+struct HashProbe {
+  std::vector<std::uint32_t> coherent_u, cell_seed, pair_seed;
+};
+/// Coherent index of cell_u, seed of (cell_u, cell_v), and of that with half-vector cell (ju, jv).
+HashProbe probeHash(const std::vector<std::int32_t>& cell_u,
+                    const std::vector<std::int32_t>& cell_v, const std::vector<std::int32_t>& ju,
+                    const std::vector<std::int32_t>& jv, int width);
+
+struct RandomProbe {
+  std::vector<float> uniform, gauss;
+};
+/// U(bits) and the byte Gaussian of bits.
+RandomProbe probeRandom(const std::vector<std::uint32_t>& bits, int width);
+
+/// Number of successes at P(more) = u among n trials of probability p.
+std::vector<float> probeBinomial(const std::vector<float>& u, const std::vector<float>& n,
+                                 const std::vector<float>& p, GlintMethod method, int width);
+
+}  // namespace glintmark
