@@ -76,6 +76,10 @@ struct BadValue {
   const char* expected;  // in the message
 };
 
+void PrintTo(const BadValue& value, std::ostream* out) {
+  *out << value.line;
+}
+
 class BadMaterialValues : public testing::TestWithParam<BadValue> {};
 
 TEST_P(BadMaterialValues, AreErrors) {

@@ -164,6 +164,10 @@ struct RealModel {
   std::size_t triangles;
 };
 
+void PrintTo(const RealModel& model, std::ostream* out) {
+  *out << model.file;
+}
+
 class RealModels : public testing::TestWithParam<RealModel> {};
 
 TEST_P(RealModels, Load) {

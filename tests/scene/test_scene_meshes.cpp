@@ -22,6 +22,10 @@ struct TableRow {
   double triangles;
 };
 
+void PrintTo(const TableRow& row, std::ostream* out) {
+  *out << row.scene;
+}
+
 class TableOneMeshes : public testing::TestWithParam<TableRow> {};
 
 TEST_P(TableOneMeshes, CountAndFrames) {
