@@ -1,5 +1,6 @@
 // glintmark bench: the papers' timing tables.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <memory>
 

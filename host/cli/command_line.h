@@ -1,6 +1,5 @@
 // What every subcommand shares: the common options, and how a subcommand registers itself.
 #pragma once
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <string>
 #include <vector>
@@ -10,6 +9,10 @@
 #include "host/ocl/kernel_config.h"
 #include "host/report/record.h"
 #include "host/scene/load_scene.h"
+
+namespace CLI {
+class App;
+}
 
 namespace glintmark {
 

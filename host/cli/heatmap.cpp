@@ -1,5 +1,6 @@
 // glintmark heatmap: cells visited per pixel, of one view or over a sweep of angles. [ZK16] Fig. 9
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <memory>
 

@@ -1,5 +1,6 @@
 // glintmark info: devices, and the chosen one's measured peaks.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "host/cli/command_line.h"
 #include "host/ocl/compute.h"

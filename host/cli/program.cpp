@@ -1,6 +1,9 @@
 #include "host/cli/program.h"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
 
 #include "host/cli/command_line.h"
 #include "host/core/error.h"
@@ -39,24 +42,24 @@ void addCommonOptions(CLI::App& app, CommonOptions& common) {
   app.add_flag("--quiet", common.quiet, "No progress and no notes on stderr");
 }
 
+// Options of the chosen command, then the common ones, each once.
 std::string knownOptions(const CLI::App& app, const CLI::App* command) {
-  std::string known;
+  std::vector<std::string> known;
   for (const CLI::App* level : {command, &app}) {
     if (level == nullptr) continue;
     for (const CLI::Option* option : level->get_options()) {
-      if (option->get_positional()) continue;
-      known += fmt::format("{}{}", known.empty() ? "" : ", ", option->get_name());
+      const std::string name = option->get_name();
+      if (option->get_positional() || std::ranges::find(known, name) != known.end()) continue;
+      known.push_back(name);
     }
   }
-  return known;
+  return fmt::format("{}", fmt::join(known, ", "));
 }
 
 std::string knownCommands(CLI::App& app) {
-  std::string known;
-  for (const CLI::App* command : app.get_subcommands(nullptr)) {
-    known += fmt::format("{}{}", known.empty() ? "" : ", ", command->get_name());
-  }
-  return known;
+  std::vector<std::string> known;
+  for (const CLI::App* command : app.get_subcommands(nullptr)) known.push_back(command->get_name());
+  return fmt::format("{}", fmt::join(known, ", "));
 }
 
 // One sentence for whatever CLI11 did not like.

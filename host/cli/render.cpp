@@ -1,5 +1,6 @@
 // glintmark render: one picture of a scene.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <memory>
 #include <optional>

@@ -131,8 +131,11 @@ std::optional<double> CaseMeasurement::paperMs() const {
 // Does nothing if the reference itself is bad, which checkImages has reported.
 void CaseMeasurement::checkSame(const Image& image, const Image& reference, const char* what) {
   if (badValueCount(reference) > 0) return;
-  if (badValueCount(image) > 0 || relMse(image, reference) > kSameImageRelMse) {
-    result_.failures.push_back(fmt::format("{} gives another image", what));
+  if (badValueCount(image) > 0) {
+    result_.failures.push_back(fmt::format("{} gives bad radiance values", what));
+  } else if (const double difference = relMse(image, reference); difference > kSameImageRelMse) {
+    result_.failures.push_back(
+        fmt::format("{} gives another image (relMSE {:.2g})", what, difference));
   }
 }
 
