@@ -156,11 +156,13 @@ HWY_INLINE void setUpTriangles(const Corners& corners, std::int32_t tile_x, std:
   hn::Store(hn::DemoteTo(df, hn::Mul(z_dy, per_pixel)), df, batch.z_dy);
 }
 
-// Draws triangle `lane` of the batch; `entry` is its position in the tile's list.
-HWY_INLINE void drawTriangle(const TriangleBatch& batch, std::size_t lane, std::int32_t entry,
-                             TileBuffer& tile) {
-  const hn::ScalableTag<std::int32_t> di;
-  const hn::ScalableTag<float> df;
+// Draws triangle `lane` of the batch in vectors of at most kLanes pixels; `entry` is its position
+// in the tile's list.
+template <std::size_t kLanes>
+HWY_INLINE void drawRows(const TriangleBatch& batch, std::size_t lane, std::int32_t entry,
+                         TileBuffer& tile) {
+  const hn::CappedTag<std::int32_t, kLanes> di;
+  const hn::CappedTag<float, kLanes> df;
   const int lanes = static_cast<int>(hn::Lanes(di));
   const int x0 = batch.x0[lane], x1 = batch.x1[lane], y0 = batch.y0[lane], y1 = batch.y1[lane];
   const auto entry_v = hn::Set(di, entry);
@@ -195,6 +197,16 @@ HWY_INLINE void drawTriangle(const TriangleBatch& batch, std::size_t lane, std::
       draw_row(y + 3);
     }
   }
+}
+
+// Short vectors for narrow triangles: at any x, long ones nearly always straddle two cache lines.
+HWY_INLINE void drawTriangle(const TriangleBatch& batch, std::size_t lane, std::int32_t entry,
+                             TileBuffer& tile) {
+  constexpr int kNarrow_px = 8;
+  if (batch.x1[lane] - batch.x0[lane] < kNarrow_px)
+    drawRows<kNarrow_px>(batch, lane, entry, tile);
+  else
+    drawRows<16>(batch, lane, entry, tile);
 }
 
 void clearTile(TileBuffer& tile) {
