@@ -23,7 +23,7 @@ CellDistribution cellDistribution(const Image& cells) {
   CellDistribution result;
   double sum = 0;
   for (const float count : cells.pixels) {
-    if (!(count >= 0)) continue;
+    if (!(count > 0)) continue;
     result.min = result.glint_px == 0 ? count : std::min<double>(result.min, count);
     result.max = std::max<double>(result.max, count);
     sum += count;
@@ -38,7 +38,7 @@ CellDistribution cellDistribution(const Image& cells) {
 }
 
 std::string histogramText(const CellDistribution& distribution) {
-  if (distribution.glint_px == 0) return "no pixel of the image has a glint material\n";
+  if (distribution.glint_px == 0) return "no pixel of the image visits a cell\n";
   const std::vector<std::size_t>& counts = distribution.pixels_by_count;
   const auto first = static_cast<std::size_t>(distribution.min);
   const std::size_t span = counts.size() - std::min(first, counts.size() - 1);

@@ -12,6 +12,7 @@ namespace glintmark {
 namespace {
 
 constexpr DisplayColour kUncovered = {0.16f, 0.16f, 0.16f};
+constexpr DisplayColour kUnlit = {0.35f, 0.35f, 0.35f};
 constexpr DisplayColour kPaper = {1, 1, 1};
 constexpr DisplayColour kInk = {0, 0, 0};
 constexpr int kTicks = 8;  // intervals on the colour bar: 8, 15, 22, ... 64 on the fixed scale
@@ -87,11 +88,13 @@ HeatmapRange heatmapRange(HeatmapScale scale, const CellDistribution& distributi
 Image heatmapColours(const Image& cells, const HeatmapRange& range) {
   if (cells.channels != 1) throw Error("a cell-count image has one channel");
   Image colours(cells.width, cells.height, 3);
+  const double span = range.high - range.low;
   for (int y = 0; y < cells.height; ++y) {
     for (int x = 0; x < cells.width; ++x) {
       const float count = cells.at(x, y)[0];
-      const DisplayColour colour =
-          count >= 0 ? falseColour((count - range.low) / (range.high - range.low)) : kUncovered;
+      const DisplayColour colour = count > 0    ? falseColour((count - range.low) / span)
+                                   : count == 0 ? kUnlit
+                                                : kUncovered;
       std::ranges::copy(colour, colours.at(x, y).begin());
     }
   }

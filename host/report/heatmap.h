@@ -27,7 +27,7 @@ struct HeatmapRange {
 HeatmapRange heatmapRange(HeatmapScale scale, const CellDistribution& distribution);
 
 /// The display colours of the counts alone, without legend, as RGB in [0, 1]. Pixels below 0 (no
-/// glint material) are dark grey.
+/// glint material) are dark grey, those at 0 (no light reaches them) a lighter grey.
 Image heatmapColours(const Image& cells, const HeatmapRange& range);
 
 /// The whole picture: the counts, below them title, statistics, and colour bar with ticks. The

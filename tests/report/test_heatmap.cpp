@@ -23,7 +23,7 @@ DisplayColour colourAt(const Image& image, int x, int y) {
 }
 
 TEST(CellDistribution, ByHand) {
-  const CellDistribution d = cellDistribution(cellsOf(3, 2, {-1, 8, 10, 8, 14, -1}));
+  const CellDistribution d = cellDistribution(cellsOf(3, 2, {-1, 8, 10, 8, 14, 0}));
   EXPECT_EQ(d.glint_px, 4u);
   EXPECT_EQ(d.min, 8);
   EXPECT_EQ(d.max, 14);
@@ -34,10 +34,10 @@ TEST(CellDistribution, ByHand) {
 }
 
 TEST(CellDistribution, NoGlintPixels) {
-  const CellDistribution d = cellDistribution(cellsOf(2, 1, {-1, -1}));
+  const CellDistribution d = cellDistribution(cellsOf(2, 1, {-1, 0}));
   EXPECT_EQ(d.glint_px, 0u);
   EXPECT_EQ(d.mean, 0);
-  EXPECT_NE(histogramText(d).find("no pixel"), std::string::npos);
+  EXPECT_NE(histogramText(d).find("no pixel of the image visits"), std::string::npos);
 }
 
 TEST(Histogram, CountsEveryPixelOnce) {
@@ -71,12 +71,17 @@ TEST(Histogram, OneValueAndHugeValues) {
 }
 
 TEST(Heatmap, FixedScaleIsThePapers) {
-  const Image colours = heatmapColours(cellsOf(5, 1, {8, 64, 36, 3, 900}), HeatmapRange{});
+  const Image colours = heatmapColours(cellsOf(7, 1, {8, 64, 36, 3, 900, 0, -1}), HeatmapRange{});
   EXPECT_EQ(colourAt(colours, 0, 0), falseColour(0));
   EXPECT_EQ(colourAt(colours, 1, 0), falseColour(1));
   EXPECT_EQ(colourAt(colours, 2, 0), falseColour(0.5));
   EXPECT_EQ(colourAt(colours, 3, 0), falseColour(0));
   EXPECT_EQ(colourAt(colours, 4, 0), falseColour(1));
+  for (const int x : {5, 6}) {  // two different greys
+    EXPECT_EQ(colours.at(x, 0)[0], colours.at(x, 0)[1]);
+    EXPECT_EQ(colours.at(x, 0)[0], colours.at(x, 0)[2]);
+  }
+  EXPECT_NE(colours.at(5, 0)[0], colours.at(6, 0)[0]);
 }
 
 TEST(Heatmap, AutoScaleSpansTheImage) {
