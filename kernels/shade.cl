@@ -121,7 +121,8 @@ WIDE HalfVectorCell halfVectorCell(LightLobe lobe, constant const GlintMaterial*
 WIDE CellMaterial cellMaterial(constant const GlintMaterial* material, float2 gamma) {
   CellMaterial m;
   m.density = material->density / (gamma.x * gamma.y);
-  m.size_variation = material->size_variation;
+  m.size_scale = material->size_variation / BYTE_SUM_SIGMA;
+  m.size_offset = fma(-BYTE_SUM_MEAN, m.size_scale, 1.0f);
   m.most_expected = 0x1p30f / fma(material->size_variation, 3.5f, 1.0f);
 #if GLINT_COLOUR
   m.material = material;
