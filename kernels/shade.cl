@@ -177,6 +177,7 @@ kernel void shade(global const uint* planes, constant const FrameParams* frame,
   const float2 gamma = gridStretch(material->alpha_g, material->alpha_l);
   const Footprint footprint = loadFootprint(planes, stride, entry, gamma);
   const CellMaterial cell_material = cellMaterial(material, gamma);
+  const PixelCells pixel_cells = makePixelCells(&footprint, &cell_material);
 #endif
   vint cells = (vint)(0);
   vmask limited = (vint)(0);
@@ -193,7 +194,7 @@ kernel void shade(global const uint* planes, constant const FrameParams* frame,
       const HalfVectorCell half_cell = halfVectorCell(lobe, material, light->direction.w);
       vint visited = (vint)(0);
       vmask cut = (vint)(0);
-      const GlintSum share = glintRatio(&footprint, &half_cell, &cell_material, &visited, &cut);
+      const GlintSum share = glintRatio(&pixel_cells, &half_cell, &cell_material, &visited, &cut);
       // Relative to its expectation, so that the smooth lobe carries units and energy.
       const vfloat inverse =
           lit ? wideReciprocal(max(lobe.probability, (vfloat)(MIN_PROBABILITY))) : (vfloat)(0.0f);
