@@ -8,8 +8,8 @@
 
 namespace glintmark {
 
-/// Distribution of a one-channel image of cell counts over the pixels that visited cells. Those at 0
-/// (a glint material that no light reaches) and below 0 (no glint material) do not take part.
+/// Distribution of a one-channel image of cell counts over the pixels that visited cells. Those at
+/// 0 (a glint material that no light reaches) and below 0 (no glint material) do not take part.
 struct CellDistribution {
   std::size_t glint_px = 0;
   double min = 0, mean = 0, max = 0;         // 0 if glint_px is 0
