@@ -60,7 +60,7 @@ WIDE LightLobe evaluateLight(ShadingFrame frame, vfloat3 view, SmithLambda lambd
 #if GROOVE
   const vfloat peak_sq = PI * micro.vv;
 #else
-  const vfloat peak_sq = PI * PI * determinant(micro);
+  const vfloat peak_sq = PI * PI * micro.determinant;
 #endif
   lobe.probability = min(density * per_tap * peak_sq * wideRsqrt(peak_sq), (vfloat)(1.0f));
   const vfloat inverse = wideReciprocal(h.length_sq * wideRsqrt(h.length_sq) + h.sum_z);
