@@ -158,15 +158,18 @@ TEST(Switches, AbsentEffectsLeaveNoFunctionBehind) {
        &KernelConfig::glint,
        {"glintRatio", "coherentIndex", "hashDirection", "makeFootprint", "makeBinomialOdds"}},
       {"GLINT_COLOUR", &KernelConfig::glint_colour, {"colourWheel", "cellColour"}},
-      {"LIGHT_CONE", &KernelConfig::light_cone, {"coneSlopeMatrix"}},
+      {"LIGHT_CONE", &KernelConfig::light_cone, {"widenedAlpha"}},
+      {"GROOVE", &KernelConfig::groove, {"grooveDensity"}},
       {"SIZE_VARIATION", &KernelConfig::size_variation, {"byteSum"}},
       {"COUNT_CELLS", &KernelConfig::count_cells, {"cell_counts"}}};
   for (const Effect& effect : effects) {
     KernelConfig config = baseConfig();
     config.glint_colour = config.light_cone = config.diffuse = config.count_cells = true;
+    config.groove = true;
     const std::string with = preprocessed(config);
     config.*effect.flag = false;
-    if (!config.glint) config.glint_colour = config.size_variation = config.count_cells = false;
+    if (!config.glint)
+      config.groove = config.glint_colour = config.size_variation = config.count_cells = false;
     const std::string without = preprocessed(config);
     for (const std::string& function : effect.functions) {
       EXPECT_NE(with.find(function), std::string::npos) << function << " was renamed";

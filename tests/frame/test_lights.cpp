@@ -1,0 +1,88 @@
+// Cone lights as the kernels get them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/glm.hpp>
+#include <numbers>
+#include <vector>
+
+#include "host/frame/lights.h"
+
+namespace glintmark {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+ConeLight cone(double half_deg) {
+  ConeLight light{};
+  light.direction = {0.6f, 0, 1.6f, static_cast<float>(half_deg * kDegree)};  // not unit
+  light.irradiance = {1, 2, 3, 0};
+  return light;
+}
+
+glm::dvec3 toDouble(const float4& v) {
+  return {v.x, v.y, v.z};
+}
+
+TEST(Lights, PowerGivesTheIrradianceBack) {
+  for (const double half_deg : {0.0, 0.25, 5.0, 45.0, 90.0}) {
+    const ConeLight light = cone(half_deg);
+    const PreparedLights prepared = prepareLights({&light, 1});
+    // Irradiance on a facing surface is radiance x solid angle x the mean cosine, (1 + cos) / 2.
+    const double mean_cosine = 0.5 * (1 + std::cos(half_deg * kDegree));
+    EXPECT_NEAR(prepared.lights[0].power.x * mean_cosine, 1, 1e-6) << half_deg;
+    EXPECT_NEAR(prepared.lights[0].power.z * mean_cosine, 3, 1e-5) << half_deg;
+  }
+}
+
+TEST(Lights, TapsLieInTheConeAndAverageToItsAxis) {
+  const glm::dvec3 axis = glm::normalize(glm::dvec3(0.6, 0, 1.6));
+  for (const double half_deg : {0.0, 0.25, 5.0, 12.0, 15.0, 30.0, 45.0, 90.0}) {
+    const ConeLight light = cone(half_deg);
+    const PreparedLights prepared = prepareLights({&light, 1});
+    ASSERT_EQ(prepared.taps.size(), prepared.lights[0].tap_count);
+    const double cosine = std::cos(half_deg * kDegree);
+    glm::dvec3 mean(0.0);
+    for (const float4& tap : prepared.taps) {
+      const glm::dvec3 d = toDouble(tap);
+      EXPECT_NEAR(glm::length(d), 1, 1e-6);
+      EXPECT_GE(glm::dot(d, axis), cosine - 1e-6);
+      mean += d / static_cast<double>(prepared.taps.size());
+    }
+    // The cone's own mean direction, to a tenth of its radius.
+    const glm::dvec3 want = axis * (prepared.taps.size() == 1 ? 1.0 : 0.5 * (1 + cosine));
+    EXPECT_LT(glm::length(mean - want), 0.1 * std::sin(half_deg * kDegree) + 1e-6)
+        << half_deg << " degrees, " << prepared.taps.size() << " taps";
+  }
+}
+
+TEST(Lights, VarianceIsThatOfDirectionsInTheCone) {
+  for (const double half_deg : {1.0, 20.0, 60.0, 90.0}) {
+    const double cosine = std::cos(half_deg * kDegree);
+    // E[x^2] over a cap: by quadrature over its height.
+    double sum = 0;
+    constexpr int kSteps = 100000;
+    for (int i = 0; i < kSteps; ++i) {
+      const double height = cosine + (1 - cosine) * (i + 0.5) / kSteps;
+      sum += 0.5 * (1 - height * height) / kSteps;
+    }
+    EXPECT_NEAR(coneVariance(cosine) / sum, 1, 1e-6);
+  }
+  EXPECT_EQ(coneVariance(1), 0);
+}
+
+TEST(Lights, SeveralLightsShareTheTapBuffer) {
+  const std::vector<ConeLight> lights = {cone(0), cone(40), cone(1)};
+  const PreparedLights prepared = prepareLights(lights);
+  ASSERT_EQ(prepared.lights.size(), 3u);
+  uint next = 0;
+  for (const LightParams& light : prepared.lights) {
+    EXPECT_EQ(light.first_tap, next);
+    next += light.tap_count;
+  }
+  EXPECT_EQ(next, prepared.taps.size());
+  EXPECT_TRUE(prepareLights({}).lights.empty());
+}
+
+}  // namespace
+}  // namespace glintmark

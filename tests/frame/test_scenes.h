@@ -1,0 +1,57 @@
+// Small scenes made by hand.
+#pragma once
+#include <glm/glm.hpp>
+
+#include "host/scene/scene.h"
+
+namespace glintmark {
+
+inline Material glintMaterial() {
+  Material material;
+  material.name = "glitter";
+  material.glint.alpha_g = {0.3f, 0.3f};
+  material.glint.alpha_l = {0.1f, 0.1f};
+  material.glint.density = 1e7f;
+  material.glint.intensity = 1;
+  material.glint.f0 = {0.9f, 0.8f, 0.7f, 0};
+  return material;
+}
+
+/// Adds a quad in the plane y = 0 over x in [x0, x1], z in [-8, 8]; one uv unit is one scene unit.
+inline void addFloor(Scene& scene, float x0, float x1, std::uint32_t material) {
+  TriangleMesh& mesh = scene.mesh;
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  for (const float z : {8.0f, -8.0f})
+    for (const float x : {x0, x1}) {
+      mesh.positions.push_back({x, 0, z});
+      mesh.normals.push_back({0, 1, 0});
+      mesh.tangents.push_back({1, 0, 0, 1});
+      mesh.uvs.push_back({x, -z});
+    }
+  mesh.triangles.push_back({first, first + 1, first + 3});
+  mesh.triangles.push_back({first, first + 3, first + 2});
+  mesh.triangle_materials.insert(mesh.triangle_materials.end(), 2, material);
+}
+
+inline View lookingDown(double angle_deg, double distance = 3) {
+  View view;
+  view.fov_y_deg = 20;
+  Orbit orbit;
+  orbit.angle_deg = angle_deg;
+  orbit.distance = distance;
+  return orbitView(view, orbit);
+}
+
+/// A floor of glints that fills the screen under one light.
+inline Scene floorScene() {
+  Scene scene;
+  scene.materials = {glintMaterial()};
+  addFloor(scene, -8, 8, 0);
+  ConeLight sun{};
+  sun.direction = {0, 0.8f, -0.6f, 0};
+  sun.irradiance = {3, 3, 3, 0};
+  scene.lights = {sun};
+  return scene;
+}
+
+}  // namespace glintmark
