@@ -163,7 +163,8 @@ std::string Zk16Bench::tableText() const {
   if (kernel != records_.end() && loop != records_.end()) {
     text += fmt::format(
         "\nStatic instructions of {}'s kernel, {} pixels at once:\n"
-        "{:.0f}, of which {:.0f} in the cell loop (paper: {} and {})\n",
+        "{:.0f}, of which {:.0f} in the cell loop, which takes four cells at a time "
+        "(paper: {} and {})\n",
         kernel->case_, run_.width, kernel->value.median, loop->value.median,
         kZk16ShaderInstructions, kZk16LoopInstructions);
   }

@@ -46,6 +46,7 @@ std::optional<Instruction> parseLine(const std::string& line) {
   Instruction instruction;
   instruction.address = *address;
   instruction.vector_512 = text.find("%zmm") != std::string_view::npos;
+  instruction.multiply = text.starts_with("vpmulld") || text.starts_with("imul");
   instruction.call = text.starts_with("call");
   instruction.falls_through = !text.starts_with("jmp") && !text.starts_with("ret");
   // Every x86 mnemonic that starts with j is a jump; indirect ones have no number here.
@@ -184,6 +185,7 @@ std::vector<LoopCounts> findLoops(const std::vector<Instruction>& instructions) 
     for (std::size_t i = 0; i < instructions.size(); ++i) {
       loop.instructions += body[i];
       loop.vector_512 += body[i] && instructions[i].vector_512;
+      loop.multiplies += body[i] && instructions[i].multiply;
       loop.calls += body[i] && instructions[i].call;
     }
     for (const auto& [other_head, other_body] : bodies) {

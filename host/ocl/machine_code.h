@@ -11,6 +11,7 @@ namespace glintmark {
 struct Instruction {
   std::uint64_t address = 0;
   bool vector_512 = false;  // names a 512-bit register
+  bool multiply = false;    // of integers
   bool call = false;
   bool falls_through = true;  // the next instruction may follow
   std::optional<std::uint64_t> jump_target;
@@ -20,6 +21,7 @@ struct Instruction {
 struct LoopCounts {
   std::size_t instructions = 0;
   std::size_t vector_512 = 0;
+  std::size_t multiplies = 0;     // of integers
   std::size_t calls = 0;          // functions that were not inlined
   int depth = 0;                  // loops around this one
   std::size_t longest_inner = 0;  // instructions of the longest loop inside it, 0 if innermost

@@ -55,14 +55,15 @@ std::optional<std::string> disassemble(const std::string& object) {
   return text;
 }
 
-// The cell loop may hold short loops of its own, such as the tail of a random draw.
-constexpr std::size_t kShortLoop = 48;
-
+// Hashing a grid cell multiplies integers more often than all address arithmetic around it, so the
+// loop over cells is the tightest one with most of the multiplications.
 const LoopCounts* findCellLoop(const std::vector<LoopCounts>& loops) {
+  std::size_t most = 0;
+  for (const LoopCounts& loop : loops) most = std::max(most, loop.multiplies);
   const LoopCounts* chosen = nullptr;
   for (const LoopCounts& loop : loops) {
-    const bool innermost = loop.longest_inner < kShortLoop;
-    if (innermost && (!chosen || loop.instructions > chosen->instructions)) chosen = &loop;
+    const bool hashes = loop.multiplies > 0 && 2 * loop.multiplies > most;
+    if (hashes && (!chosen || loop.instructions < chosen->instructions)) chosen = &loop;
   }
   return chosen;
 }

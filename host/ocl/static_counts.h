@@ -12,7 +12,7 @@ namespace glintmark {
 
 struct StaticCounts {
   std::size_t kernel_instructions = 0;
-  std::size_t cell_loop_instructions = 0;  // longest loop without long loops inside; 0 if none
+  std::size_t cell_loop_instructions = 0;  // tightest loop around the hashes; 0 if none
   std::size_t vector_512 = 0;              // in the whole kernel
   std::vector<LoopCounts> loops;           // by the address of their heads
 };

@@ -26,7 +26,7 @@ Disassembly of section .text:
       16:	je     40 <kernel_workgroup+0x38>
       18:	xor    %eax,%eax
       1a:	xchg   %ax,%ax
-      20:	vfmadd213ps %zmm0,%zmm1,%zmm2
+      20:	vpmulld %zmm0,%zmm1,%zmm2
       24:	call   0 <other>
       26:	dec    %eax
       28:	jne    20 <kernel_workgroup+0x18>
@@ -50,6 +50,8 @@ TEST(StaticCounts, NaturalLoopsOfAListing) {
   EXPECT_EQ(outer.longest_inner, 4u);
   EXPECT_EQ(inner.instructions, 4u);
   EXPECT_EQ(inner.vector_512, 1u);
+  EXPECT_EQ(inner.multiplies, 1u);
+  EXPECT_EQ(counts->cell_loop_instructions, inner.instructions);
   EXPECT_EQ(inner.calls, 1u);
   EXPECT_EQ(inner.depth, 1);
   EXPECT_EQ(inner.longest_inner, 0u);
