@@ -82,7 +82,7 @@ KernelBench::KernelBench() : device(), cache(device) {}
 
 KernelBench& KernelBench::shared() {
   static KernelBench* bench = [] {
-    setenv("GLINTMARK_CACHE_DIR", GLINTMARK_BINARY_DIR "/test_cache/programs", 1);
+    setenv("GLINTMARK_CACHE_DIR", GLINTMARK_BINARY_DIR "/test_cache/programs", 0);
     setenv("POCL_CACHE_DIR", GLINTMARK_BINARY_DIR "/test_cache/pocl", 1);
     return new KernelBench;  // lives as long as the program: drivers dislike late teardown
   }();
