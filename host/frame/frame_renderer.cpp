@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 
 #include "host/core/error.h"
@@ -42,6 +43,15 @@ struct FrameRenderer::Impl {
     Buffer material;
   };
 
+  // Rows of the frame that fit into the device's largest buffer; as a rule there is one band.
+  struct Band {
+    Camera camera;
+    int top_px = 0;
+    PixelPlanes planes;
+    std::vector<Launch> launches;
+    Buffer plane_buffer, radiance, counts;
+  };
+
   Impl(Device& device_, const Scene& scene_, const View& view, const ShadingOptions& options_,
        int thread_count)
       : device(device_),
@@ -52,10 +62,13 @@ struct FrameRenderer::Impl {
         camera(makeCamera(view, options_.width_px, options_.height_px)),
         lanes(options_.lanes > 0 ? options_.lanes : device_.info().default_lanes) {}
 
-  void makeLaunches();
-  void makeBuffers(FrameTimes& times);
-  std::vector<KernelArg> arguments(const Launch& launch) const;
-  std::vector<std::uint32_t> readCounts() const;
+  void makeBands();
+  void makeLights();
+  void makeBuffers(Band& band, FrameTimes& times);
+  void makeLaunches(Band& band);
+  std::vector<KernelArg> arguments(const Band& band, const Launch& launch) const;
+  void forEachCount(
+      const std::function<void(const Band&, std::uint32_t entry, std::uint32_t word)>& visit) const;
 
   Device& device;
   const Scene& scene;
@@ -65,70 +78,101 @@ struct FrameRenderer::Impl {
   Camera camera;
   int lanes;
 
-  PixelPlanes planes;
-  std::vector<Launch> launches;
+  std::vector<Band> bands;
   std::vector<KernelConfig> configs;
-  Buffer plane_buffer, lights, taps, radiance, counts;
+  Buffer lights, taps;
   uint light_count = 0;
   double build_ns = 0;
 };
 
-void FrameRenderer::Impl::makeBuffers(FrameTimes& times) {
-  const std::size_t plane_bytes = planes.mask.size() * planes.stride * 4;
-  plane_buffer = Buffer::wrapHost(device, planes.storage.data(),
-                                  std::max<std::size_t>(plane_bytes, 4), "the rasterized planes");
-  times.upload_ns = plane_bytes > 0 ? plane_buffer.write(planes.storage.data(), plane_bytes) : 0;
-  radiance = Buffer(device, std::max<std::size_t>(planes.stride, 1) * 12, "the radiance");
-  if (options.count_cells)
-    counts = Buffer(device, std::max<std::size_t>(planes.stride, 1) * 4, "the cell counts");
+void FrameRenderer::Impl::makeBands() {
+  // The planes are the largest buffer, unless there are fewer of them than of radiance channels.
+  const std::size_t words = std::max<std::size_t>(planesFor(scene, options).size(), 3);
+  const std::size_t row_bytes = words * 4 * static_cast<std::size_t>(camera.width_px);
+  const std::size_t padding_bytes = words * 4 * GM_LIST_PADDING * scene.materials.size();
+  const std::size_t limit = device.info().max_alloc_bytes;
+  const std::size_t rows = limit > padding_bytes ? (limit - padding_bytes) / row_bytes : 0;
+  const int band_rows = static_cast<int>(
+      std::clamp<std::size_t>(rows, 1, static_cast<std::size_t>(camera.height_px)));
 
+  bands.clear();
+  for (int top = 0; top < camera.height_px; top += band_rows) {
+    Band band;
+    band.top_px = top;
+    band.camera = camera;
+    band.camera.height_px = std::min(band_rows, camera.height_px - top);
+    band.camera.ray_origin = camera.ray(0, top);
+    bands.push_back(std::move(band));
+  }
+}
+
+void FrameRenderer::Impl::makeLights() {
   PreparedLights prepared = prepareLights(scene.lights);
   light_count = static_cast<uint>(prepared.lights.size());
   lights = uploadItems(device, std::move(prepared.lights), "the lights");
   taps = uploadItems(device, std::move(prepared.taps), "the lights' taps");
 }
 
-void FrameRenderer::Impl::makeLaunches() {
-  launches.clear();
-  configs.clear();
-  for (const PixelList& list : planes.lists) {
+void FrameRenderer::Impl::makeBuffers(Band& band, FrameTimes& times) {
+  const PixelPlanes& planes = band.planes;
+  const std::size_t plane_bytes = planes.mask.size() * planes.stride * 4;
+  if (plane_bytes == 0) return;  // an empty frame launches nothing
+  band.plane_buffer =
+      Buffer::wrapHost(device, planes.storage.data(), plane_bytes, "the rasterized planes");
+  times.upload_ns += band.plane_buffer.write(planes.storage.data(), plane_bytes);
+  band.radiance = Buffer(device, planes.stride * 12, "the radiance");
+  if (options.count_cells) band.counts = Buffer(device, planes.stride * 4, "the cell counts");
+}
+
+void FrameRenderer::Impl::makeLaunches(Band& band) {
+  for (const PixelList& list : band.planes.lists) {
     const Material& material = scene.materials[list.material];
     Launch launch;
     launch.list = list;
     launch.config = configFor(material, scene, options, lanes);
-    launch.config.planes = planes.mask;
+    launch.config.planes = band.planes.mask;
     const Program program = cache.get("shade.cl", launch.config);
     build_ns += program.buildNs();
     launch.kernel = program.kernel("shade");
 
     FrameParams params{};
-    params.ray_origin = toFloat4(camera.ray_origin);
-    params.ray_dx = toFloat4(camera.ray_dx);
-    params.ray_dy = toFloat4(camera.ray_dy);
+    params.ray_origin = toFloat4(band.camera.ray_origin);
+    params.ray_dx = toFloat4(band.camera.ray_dx);
+    params.ray_dy = toFloat4(band.camera.ray_dy);
     params.light_count = light_count;
     params.list_offset = list.offset;
     params.list_count = list.count;
-    params.plane_stride = static_cast<uint>(planes.stride);
+    params.plane_stride = static_cast<uint>(band.planes.stride);
     launch.frame_params = uploadItems(device, std::vector{params}, "the frame's parameters");
     launch.material = uploadItems(device, std::vector{material.glint}, "a material");
-    configs.push_back(launch.config);
-    launches.push_back(std::move(launch));
+    if (std::ranges::find(configs, launch.config) == configs.end())
+      configs.push_back(launch.config);
+    band.launches.push_back(std::move(launch));
   }
 }
 
-std::vector<KernelArg> FrameRenderer::Impl::arguments(const Launch& launch) const {
-  std::vector<KernelArg> args = {plane_buffer, launch.frame_params, launch.material, lights, taps,
-                                 radiance};
-  if (launch.config.count_cells) args.emplace_back(counts);
+std::vector<KernelArg> FrameRenderer::Impl::arguments(const Band& band,
+                                                      const Launch& launch) const {
+  std::vector<KernelArg> args = {
+      band.plane_buffer, launch.frame_params, launch.material, lights, taps, band.radiance};
+  if (launch.config.count_cells) args.emplace_back(band.counts);
   return args;
 }
 
-std::vector<std::uint32_t> FrameRenderer::Impl::readCounts() const {
+// Visits the count of every pixel of glint materials.
+void FrameRenderer::Impl::forEachCount(
+    const std::function<void(const Band&, std::uint32_t, std::uint32_t)>& visit) const {
   if (!options.count_cells)
     throw Error("cells were not counted: set ShadingOptions::count_cells before shading");
-  std::vector<std::uint32_t> words(planes.stride);
-  if (!words.empty()) counts.read(words.data(), words.size() * 4);
-  return words;
+  for (const Band& band : bands) {
+    std::vector<std::uint32_t> words(band.planes.stride);
+    if (!words.empty()) band.counts.read(words.data(), words.size() * 4);
+    for (const Launch& launch : band.launches) {
+      if (!launch.config.count_cells) continue;
+      const std::uint32_t end = launch.list.offset + launch.list.count;
+      for (std::uint32_t i = launch.list.offset; i < end; ++i) visit(band, i, words[i]);
+    }
+  }
 }
 
 FrameRenderer::FrameRenderer(Device& device, const Scene& scene, const View& view,
@@ -138,88 +182,93 @@ FrameRenderer::~FrameRenderer() = default;
 
 FrameTimes FrameRenderer::prepare() {
   FrameTimes times;
-  const Stopwatch watch;
-  impl_->rasterizer.render(impl_->scene.mesh, impl_->camera, impl_->scene.cull_back_faces,
-                           planesFor(impl_->scene, impl_->options), impl_->planes);
-  times.raster_ns = watch.elapsedNs();
-  impl_->makeBuffers(times);
-  impl_->makeLaunches();
+  impl_->makeBands();
+  impl_->makeLights();
+  impl_->configs.clear();
+  const PlaneMask mask = planesFor(impl_->scene, impl_->options);
+  for (Impl::Band& band : impl_->bands) {
+    const Stopwatch watch;
+    impl_->rasterizer.render(impl_->scene.mesh, band.camera, impl_->scene.cull_back_faces, mask,
+                             band.planes);
+    times.raster_ns += watch.elapsedNs();
+    impl_->makeBuffers(band, times);
+    impl_->makeLaunches(band);
+  }
   return times;
 }
 
 FrameTimes FrameRenderer::shade() {
   FrameTimes times;
-  for (Impl::Launch& launch : impl_->launches) {
-    const auto lanes = static_cast<std::size_t>(launch.config.width);
-    const std::size_t items = (launch.list.count + lanes - 1) / lanes;
-    const LaunchTimes t = launch.kernel.launch(impl_->arguments(launch), items, kLocalSize);
-    times.shading_event_ns += t.event_ns;
-    times.shading_wall_ns += t.wall_ns;
-  }
+  for (Impl::Band& band : impl_->bands)
+    for (Impl::Launch& launch : band.launches) {
+      const auto lanes = static_cast<std::size_t>(launch.config.width);
+      const std::size_t items = (launch.list.count + lanes - 1) / lanes;
+      const LaunchTimes t = launch.kernel.launch(impl_->arguments(band, launch), items, kLocalSize);
+      times.shading_event_ns += t.event_ns;
+      times.shading_wall_ns += t.wall_ns;
+    }
   return times;
 }
 
 Image FrameRenderer::readRadiance(FrameTimes* times) {
-  const PixelPlanes& planes = impl_->planes;
-  std::vector<float> words(planes.stride * 3);
-  const Stopwatch watch;
-  if (!words.empty()) impl_->radiance.read(words.data(), words.size() * 4);
-  if (times) times->readback_ns = watch.elapsedNs();
-
-  Image image(planes.width_px, planes.height_px, 4);
+  Image image(impl_->camera.width_px, impl_->camera.height_px, 4);
   image.channel_names = {"R", "G", "B", "A"};
-  const auto pixels = planes.plane(Plane::kPixel);
-  for (const PixelList& list : planes.lists)
-    tbb::parallel_for(list.offset, list.offset + list.count, [&](std::uint32_t i) {
-      const auto out =
-          image.at(static_cast<int>(pixels[i] & 0xFFFFu), static_cast<int>(pixels[i] >> 16));
-      for (std::size_t c = 0; c < 3; ++c) out[c] = words[c * planes.stride + i];
-      out[3] = 1.0f;
-    });
+  double readback_ns = 0;
+  for (const Impl::Band& band : impl_->bands) {
+    const PixelPlanes& planes = band.planes;
+    std::vector<float> words(planes.stride * 3);
+    if (!words.empty()) readback_ns += band.radiance.read(words.data(), words.size() * 4);
+    const auto pixels = planes.plane(Plane::kPixel);
+    for (const PixelList& list : planes.lists)
+      tbb::parallel_for(list.offset, list.offset + list.count, [&](std::uint32_t i) {
+        const auto out = image.at(static_cast<int>(pixels[i] & 0xFFFFu),
+                                  band.top_px + static_cast<int>(pixels[i] >> 16));
+        for (std::size_t c = 0; c < 3; ++c) out[c] = words[c * planes.stride + i];
+        out[3] = 1.0f;
+      });
+  }
+  if (times) times->readback_ns = readback_ns;
   return image;
 }
 
 Image FrameRenderer::readCells() {
-  const PixelPlanes& planes = impl_->planes;
-  const std::vector<std::uint32_t> words = impl_->readCounts();
-  Image image(planes.width_px, planes.height_px, 1);
+  Image image(impl_->camera.width_px, impl_->camera.height_px, 1);
   image.channel_names = {"cells"};
   std::ranges::fill(image.pixels, -1.0f);
-  const auto pixels = planes.plane(Plane::kPixel);
-  for (const Impl::Launch& launch : impl_->launches) {
-    if (!launch.config.count_cells) continue;
-    for (std::uint32_t i = launch.list.offset; i < launch.list.offset + launch.list.count; ++i)
-      image.at(static_cast<int>(pixels[i] & 0xFFFFu), static_cast<int>(pixels[i] >> 16))[0] =
-          static_cast<float>(words[i] & ~kLimitedBit);
-  }
+  impl_->forEachCount([&](const Impl::Band& band, std::uint32_t entry, std::uint32_t word) {
+    const std::uint32_t pixel = band.planes.plane(Plane::kPixel)[entry];
+    image.at(static_cast<int>(pixel & 0xFFFFu), band.top_px + static_cast<int>(pixel >> 16))[0] =
+        static_cast<float>(word & ~kLimitedBit);
+  });
   return image;
 }
 
 CellCounts FrameRenderer::cellCounts() {
-  const std::vector<std::uint32_t> words = impl_->readCounts();
   CellCounts result;
   std::uint32_t least = std::numeric_limits<std::uint32_t>::max();
   double total = 0;
-  for (const Impl::Launch& launch : impl_->launches) {
-    if (!launch.config.count_cells) continue;
-    for (std::uint32_t i = launch.list.offset; i < launch.list.offset + launch.list.count; ++i) {
-      const std::uint32_t cells = words[i] & ~kLimitedBit;
-      if (cells == 0) continue;
-      least = std::min(least, cells);
-      result.max = std::max(result.max, cells);
-      total += cells;
-      ++result.glint_px;
-      if (words[i] & kLimitedBit) ++result.guard_hits;
-    }
-  }
+  impl_->forEachCount([&](const Impl::Band&, std::uint32_t, std::uint32_t word) {
+    const std::uint32_t cells = word & ~kLimitedBit;
+    if (cells == 0) return;
+    least = std::min(least, cells);
+    result.max = std::max(result.max, cells);
+    total += cells;
+    ++result.glint_px;
+    if (word & kLimitedBit) ++result.guard_hits;
+  });
   result.min = result.glint_px > 0 ? least : 0;
   result.mean = result.glint_px > 0 ? total / static_cast<double>(result.glint_px) : 0;
   return result;
 }
 
 const PixelPlanes& FrameRenderer::planes() const {
-  return impl_->planes;
+  if (impl_->bands.size() != 1)
+    throw Error(
+        "the planes of this frame do not lie in one piece: call prepare() first, and choose a size "
+        "whose planes fit into the device's largest buffer");
+  return impl_->bands.front().planes;
 }
+
 const Camera& FrameRenderer::camera() const {
   return impl_->camera;
 }
@@ -232,13 +281,17 @@ double FrameRenderer::buildNs() const {
 
 double FrameRenderer::firstEnqueueNs() const {
   double total = 0;
-  for (const Impl::Launch& launch : impl_->launches) total += launch.kernel.firstEnqueueNs();
+  for (const Impl::Band& band : impl_->bands)
+    for (const Impl::Launch& launch : band.launches) total += launch.kernel.firstEnqueueNs();
   return total;
 }
 
 std::size_t FrameRenderer::bufferBytes() const {
-  return impl_->plane_buffer.bytes() + impl_->radiance.bytes() +
-         (impl_->counts.empty() ? 0 : impl_->counts.bytes());
+  std::size_t bytes = 0;
+  for (const Impl::Band& band : impl_->bands)
+    for (const Buffer* buffer : {&band.plane_buffer, &band.radiance, &band.counts})
+      if (!buffer->empty()) bytes += buffer->bytes();
+  return bytes;
 }
 
 }  // namespace glintmark

@@ -58,9 +58,11 @@ class FrameRenderer {
   Image readCells();
   CellCounts cellCounts();
 
+  /// The rasterized planes. Throws Error before prepare(), and for frames so large that they were
+  /// cut into bands of rows to fit the device's largest buffer.
   const PixelPlanes& planes() const;
   const Camera& camera() const;
-  /// Configurations in use, one per launch.
+  /// Configurations in use, each once.
   const std::vector<KernelConfig>& configs() const;
   /// Time spent in clBuildProgram and in each kernel's first enqueue, so far [ns].
   double buildNs() const;
