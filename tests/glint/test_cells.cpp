@@ -68,7 +68,7 @@ TEST(CellsZk16, SquareFootprintsTakeFewAndLongOnesTheLimit) {
 
 TEST(CellsZk16, LowerLimitsVisitFewerCells) {
   const HandMadeFrame frame = frameOf(randomPixels(2000, {1e-4, 1e-2, 64}));
-  for (const int ka : {1, 2, 4, 8, 32, 64}) {
+  for (const int ka : {1, 4, 64}) {
     const ShadedPixels shaded = visit(frame, GlintMethod::kZk16, ka);
     EXPECT_LE(*std::ranges::max_element(shaded.cells),
               static_cast<std::uint32_t>(4 * std::max(ka, 2)));

@@ -347,12 +347,7 @@ TEST_P(HardCase, ManyLights) {
 }
 
 TEST_P(HardCase, OnePixel) {
-  HandMadeFrame frame = plainFrame(1);
-  for (const int width : kAllWidths) {
-    KernelConfig c = config();
-    c.width = width;
-    expectReference(frame, kFlippedPixelShare, c);
-  }
+  for (const std::size_t count : {1u, 15u, 17u}) expectReference(plainFrame(count));
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, HardCase,
