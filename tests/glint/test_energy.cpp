@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ostream>
 
 #include "tests/glint/pixel_harness.h"
 #include "tests/glint/random_pixels.h"
@@ -65,6 +66,10 @@ struct EnergyCase {
   GlintMethod method;
   bool groove, colour;
 };
+
+void PrintTo(const EnergyCase& c, std::ostream* out) {
+  *out << c.name;
+}
 
 class Energy : public testing::TestWithParam<EnergyCase> {
  protected:

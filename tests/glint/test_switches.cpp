@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,10 @@ struct WidthCase {
   GlintMethod method;
   bool groove, colour, cone;
 };
+
+void PrintTo(const WidthCase& c, std::ostream* out) {
+  *out << c.name;
+}
 
 class Widths : public testing::TestWithParam<WidthCase> {};
 
