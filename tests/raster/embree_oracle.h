@@ -83,6 +83,16 @@ struct VisibilityComparison {
 inline constexpr double kEdgeDistance_px = 0.01;
 // Both depth tests work in single precision.
 inline constexpr double kDepthTie = 2e-6;
+// How far rounding the vertices to 1/256 px may move a triangle.
+inline constexpr double kSnap_px = 0.0028;
+
+/// How much the depth of a triangle at pixel position (x, y) changes when it moves by kSnap_px.
+inline double depthSnap(const TriangleMesh& mesh, std::uint32_t triangle, const Camera& camera,
+                        double x, double y) {
+  const double depth = hitPlane(mesh, triangle, camera, x, y).depth;
+  return std::max(std::abs(hitPlane(mesh, triangle, camera, x + kSnap_px, y).depth - depth),
+                  std::abs(hitPlane(mesh, triangle, camera, x, y + kSnap_px).depth - depth));
+}
 
 /// Compares Rasterizer::renderVisibility's `triangle_ids` (two-sided) with Embree, pixel by pixel.
 inline VisibilityComparison compareWithEmbree(const EmbreeOracle& oracle, const TriangleMesh& mesh,
@@ -112,7 +122,9 @@ inline VisibilityComparison compareWithEmbree(const EmbreeOracle& oracle, const 
       if (ours != kNoTriangle && theirs != kNoTriangle) {
         const double a = hitPlane(mesh, ours, camera, x, y).depth;
         const double b = hitPlane(mesh, theirs, camera, x, y).depth;
-        if (std::abs(a - b) <= kDepthTie * std::abs(b)) {
+        const double snap =
+            depthSnap(mesh, ours, camera, x, y) + depthSnap(mesh, theirs, camera, x, y);
+        if (std::abs(a - b) <= kDepthTie * std::abs(b) + snap) {
           ++result.tie;
           continue;
         }
