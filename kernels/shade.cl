@@ -14,10 +14,10 @@
 
 // What a light does to a pixel before microdetails are counted.
 typedef struct {
-  vfloat specular;     // mean over the light of G D / (4 o.n), Fresnel term left out
-  vfloat schlick;      // the same times (1 - cos)^5
-  vfloat cosine;       // mean of max(i.n, 0)
-  vfloat probability;  // of a microdetail reflecting, [ZK16] Eq. 7; 0 where the light does not reach
+  vfloat specular;        // mean over the light of G D / (4 o.n), Fresnel term left out
+  vfloat schlick;         // the same times (1 - cos)^5
+  vfloat cosine;          // mean of max(i.n, 0)
+  vfloat probability;     // of a microdetail reflecting, [ZK16] Eq. 7; 0 out of the light's reach
   vfloat half_u, half_v;  // paraboloid map of the half vector of the light's axis
 } LightLobe;
 
@@ -87,7 +87,8 @@ WIDE LightLobe evaluateLight(ShadingFrame frame, vfloat3 view, SmithLambda lambd
   // P(h) = D_g(h) / D_l(0).
 #if GROOVE
   const vfloat density = grooveDensity((vfloat)(alpha_g.y * alpha_g.y), h.v);
-  lobe.probability = above ? min(density * (alpha_l.y * 1.77245385f), (vfloat)(1.0f)) : (vfloat)(0.0f);
+  lobe.probability =
+      above ? min(density * (alpha_l.y * 1.77245385f), (vfloat)(1.0f)) : (vfloat)(0.0f);
 #else
   lobe.probability = min(p22 * (PI * alpha_l.x * alpha_l.y), (vfloat)(1.0f));
 #endif
@@ -137,7 +138,7 @@ WIDE CellMaterial cellMaterial(constant const GlintMaterial* material, float2 ga
 }
 
 WIDE Footprint loadFootprint(global const uint* planes, size_t stride, size_t entry, float2 gamma) {
-#define LOAD(plane) loadUint(planes, (plane) * stride + entry)
+#define LOAD(plane) loadUint(planes, (plane)*stride + entry)
   const FixedUv u = {bitsToInt(LOAD(PLANE_U_INT)), LOAD(PLANE_U_FRAC)};
   const FixedUv v = {bitsToInt(LOAD(PLANE_V_INT)), LOAD(PLANE_V_FRAC)};
   return makeFootprint(u, v, bitsToFloat(LOAD(PLANE_DUDX)), bitsToFloat(LOAD(PLANE_DVDX)),
@@ -165,9 +166,12 @@ kernel void shade(global const uint* planes, constant const FrameParams* frame,
   const ShadingFrame basis = unpackFrame(loadUint(planes, PLANE_FRAME0 * stride + entry),
                                          loadUint(planes, PLANE_FRAME1 * stride + entry));
   const vfloat px = toFloat(pixel & 0xFFFFu), py = toFloat(pixel >> 16);
-  vfloat3 ray = {fma(px, (vfloat)(frame->ray_dx.x), fma(py, (vfloat)(frame->ray_dy.x), (vfloat)(frame->ray_origin.x))),
-                 fma(px, (vfloat)(frame->ray_dx.y), fma(py, (vfloat)(frame->ray_dy.y), (vfloat)(frame->ray_origin.y))),
-                 fma(px, (vfloat)(frame->ray_dx.z), fma(py, (vfloat)(frame->ray_dy.z), (vfloat)(frame->ray_origin.z)))};
+  vfloat3 ray = {fma(px, (vfloat)(frame->ray_dx.x),
+                     fma(py, (vfloat)(frame->ray_dy.x), (vfloat)(frame->ray_origin.x))),
+                 fma(px, (vfloat)(frame->ray_dx.y),
+                     fma(py, (vfloat)(frame->ray_dy.y), (vfloat)(frame->ray_origin.y))),
+                 fma(px, (vfloat)(frame->ray_dx.z),
+                     fma(py, (vfloat)(frame->ray_dy.z), (vfloat)(frame->ray_origin.z)))};
   vfloat3 view = toLocal(basis, scale3(ray, -wideRsqrt(dot3(ray, ray))));
   // Interpolated normals may turn from the eye at silhouettes; keep Eq. 1 finite there.
   view.z = max(view.z, (vfloat)(1e-4f));
@@ -211,9 +215,12 @@ kernel void shade(global const uint* planes, constant const FrameParams* frame,
 #endif
     const float4 f0 = material->f0, power = light->power;
     const float scale = material->intensity;
-    sum.x += ratio.x * fma(lobe.specular, (vfloat)(f0.x), lobe.schlick * (1.0f - f0.x)) * (scale * power.x);
-    sum.y += ratio.y * fma(lobe.specular, (vfloat)(f0.y), lobe.schlick * (1.0f - f0.y)) * (scale * power.y);
-    sum.z += ratio.z * fma(lobe.specular, (vfloat)(f0.z), lobe.schlick * (1.0f - f0.z)) * (scale * power.z);
+    sum.x += ratio.x * fma(lobe.specular, (vfloat)(f0.x), lobe.schlick * (1.0f - f0.x)) *
+             (scale * power.x);
+    sum.y += ratio.y * fma(lobe.specular, (vfloat)(f0.y), lobe.schlick * (1.0f - f0.y)) *
+             (scale * power.y);
+    sum.z += ratio.z * fma(lobe.specular, (vfloat)(f0.z), lobe.schlick * (1.0f - f0.z)) *
+             (scale * power.z);
 #if DIFFUSE
     sum.x = fma(lobe.cosine, (vfloat)(material->albedo.x * power.x * INV_PI), sum.x);
     sum.y = fma(lobe.cosine, (vfloat)(material->albedo.y * power.y * INV_PI), sum.y);
