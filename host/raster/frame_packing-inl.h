@@ -23,6 +23,31 @@ struct FrameVector {
   hn::Vec<FrameF> x, y, z;
 };
 
+// 1 / value to about single precision, for values and results that are normal numbers. Two steps of
+// Newton's method: on some targets the estimate has no more than 8 bits.
+HWY_INLINE hn::Vec<FrameF> reciprocal(hn::Vec<FrameF> value) {
+  const auto two = hn::Set(FrameF(), 2.0f);
+  auto r = hn::ApproximateReciprocal(value);
+  r = hn::Mul(r, hn::NegMulAdd(value, r, two));
+  return hn::Mul(r, hn::NegMulAdd(value, r, two));
+}
+
+// Square root of a normal number, to about single precision, in the same way.
+HWY_INLINE hn::Vec<FrameF> squareRoot(hn::Vec<FrameF> value) {
+  const auto three_halves = hn::Set(FrameF(), 1.5f);
+  const auto half = hn::Mul(value, hn::Set(FrameF(), 0.5f));
+  auto r = hn::ApproximateReciprocalSqrt(value);
+  r = hn::Mul(r, hn::NegMulAdd(half, hn::Mul(r, r), three_halves));
+  r = hn::Mul(r, hn::NegMulAdd(half, hn::Mul(r, r), three_halves));
+  return hn::Mul(value, r);
+}
+
+// Is a sum of magnitudes such that its reciprocal is a normal number?
+HWY_INLINE auto isInvertible(hn::Vec<FrameF> sum) {
+  const FrameF d;
+  return hn::And(hn::Gt(sum, hn::Set(d, 1e-37f)), hn::Lt(sum, hn::Set(d, 1e37f)));
+}
+
 // [-1, 1] to integers [-kFrameScale, kFrameScale].
 HWY_INLINE hn::Vec<FrameI> quantizeFrame(hn::Vec<FrameF> value) {
   return hn::NearestInt(hn::Mul(value, hn::Set(FrameF(), static_cast<float>(kFrameScale))));
@@ -52,19 +77,18 @@ HWY_INLINE FrameVector decodeOctahedral(hn::Vec<FrameI> qx, hn::Vec<FrameI> qy) 
 HWY_INLINE void tangentAngle(const FrameVector& m, const FrameVector& t, hn::Vec<FrameF>& cosine,
                              hn::Vec<FrameF>& sine) {
   const FrameF d;
-  const auto length =
-      hn::Sqrt(hn::Add(hn::Add(hn::Mul(m.x, m.x), hn::Mul(m.y, m.y)), hn::Mul(m.z, m.z)));
+  const auto length = squareRoot(hn::MulAdd(m.x, m.x, hn::MulAdd(m.y, m.y, hn::Mul(m.z, m.z))));
   const auto k = hn::Add(length, hn::Abs(m.z));
   const auto scale = hn::Mul(length, k);
   const auto sign_bit = hn::And(m.z, hn::SignBit(d));
   const auto common =
-      hn::Add(hn::Add(hn::Mul(m.x, t.x), hn::Mul(m.y, t.y)), hn::Xor(hn::Mul(k, t.z), sign_bit));
-  cosine = hn::Sub(hn::Mul(t.x, scale), hn::Mul(m.x, common));
-  sine = hn::Xor(hn::Sub(hn::Mul(t.y, scale), hn::Mul(m.y, common)), sign_bit);
+      hn::MulAdd(m.x, t.x, hn::MulAdd(m.y, t.y, hn::Xor(hn::Mul(k, t.z), sign_bit)));
+  cosine = hn::NegMulAdd(m.x, common, hn::Mul(t.x, scale));
+  sine = hn::Xor(hn::NegMulAdd(m.y, common, hn::Mul(t.y, scale)), sign_bit);
 }
 
-// Packs a normal (need not be unit; where it is zero or not a number, +z is packed) and a tangent.
-// `mirrored` has bit 31 set for left-handed frames and no other.
+// Packs a normal (need not be unit; where it is below 1e-37 or not a number, +z is packed) and a
+// tangent. `mirrored` has bit 31 set for left-handed frames and no other.
 HWY_INLINE void packFrames(const FrameVector& normal, const FrameVector& tangent,
                            hn::Vec<FrameU> mirrored, hn::Vec<FrameU>& frame0,
                            hn::Vec<FrameU>& frame1) {
@@ -73,8 +97,8 @@ HWY_INLINE void packFrames(const FrameVector& normal, const FrameVector& tangent
   const FrameU du;
   const auto zero = hn::Zero(d), one = hn::Set(d, 1.0f), minus_one = hn::Set(d, -1.0f);
   const auto sum = hn::Add(hn::Add(hn::Abs(normal.x), hn::Abs(normal.y)), hn::Abs(normal.z));
-  const auto usable = hn::And(hn::Gt(sum, zero), hn::Lt(sum, hn::Set(d, 1e38f)));
-  const auto inverse = hn::IfThenElseZero(usable, hn::Div(one, sum));
+  const auto usable = isInvertible(sum);
+  const auto inverse = reciprocal(sum);
   const auto nx = hn::IfThenElseZero(usable, hn::Mul(normal.x, inverse));
   const auto ny = hn::IfThenElseZero(usable, hn::Mul(normal.y, inverse));
   const auto lower = hn::And(usable, hn::Lt(normal.z, zero));
@@ -90,8 +114,7 @@ HWY_INLINE void packFrames(const FrameVector& normal, const FrameVector& tangent
 
   // Diamond angle.
   const auto length = hn::Add(hn::Abs(c), hn::Abs(s));
-  const auto has_direction = hn::And(hn::Gt(length, zero), hn::Lt(length, hn::Set(d, 1e38f)));
-  const auto p = hn::IfThenElse(has_direction, hn::Div(c, length), one);
+  const auto p = hn::IfThenElse(isInvertible(length), hn::Mul(c, reciprocal(length)), one);
   const auto angle = hn::CopySign(hn::Mul(hn::Set(d, 0.5f), hn::Sub(one, p)), s);
 
   const auto offset = hn::Set(di, kFrameScale);

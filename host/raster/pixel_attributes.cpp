@@ -46,24 +46,17 @@ struct DoubleReader {
 };
 
 HWY_INLINE void storeFloat(VD value, float* to) {
-  const F64 d;
-  const VD limit = hn::Set(d, static_cast<double>(std::numeric_limits<float>::max()));
   const F32H df;
-  hn::StoreU(hn::DemoteTo(df, hn::Max(hn::Min(value, limit), hn::Neg(limit))), df, to);
+  const auto limit = hn::Set(df, std::numeric_limits<float>::max());
+  hn::StoreU(hn::Max(hn::Min(hn::DemoteTo(df, value), limit), hn::Neg(limit)), df, to);
 }
 
-// uv as floor and fraction of 32 bits.
+// uv in fixed point: the floor in the upper half of 64 bits, the fraction in the lower.
 HWY_INLINE void storeUv(VD value, std::uint32_t* whole, std::uint32_t* fraction) {
-  const F64 d;
-  const I32H di;
   const U32H du;
-  const VD floor = hn::Floor(value);
-  hn::StoreU(hn::DemoteTo(di, floor), di, reinterpret_cast<std::int32_t*>(whole));
-  // Just below a whole number the difference rounds to 1. Adding 2^52 leaves the value in the low
-  // bits of the double.
-  const VD scaled =
-      hn::Min(hn::Mul(hn::Sub(value, floor), hn::Set(d, 4294967296.0)), hn::Set(d, 4294967295.0));
-  const auto bits = hn::BitCast(U64(), hn::Add(scaled, hn::Set(d, 4503599627370496.0)));
+  const auto scaled = hn::Floor(hn::Mul(value, hn::Set(F64(), 4294967296.0)));
+  const auto bits = hn::BitCast(U64(), hn::ConvertTo(I64(), scaled));
+  hn::StoreU(hn::TruncateTo(du, hn::ShiftRight<32>(bits)), du, whole);
   hn::StoreU(hn::TruncateTo(du, bits), du, fraction);
 }
 
@@ -81,9 +74,8 @@ HWY_INLINE void evaluateVector(const DoubleReader<kOneTriangle>& read, hn::Vec<I
   const F32H df;
   const VD x = hn::PromoteTo(d, hn::And(pixel, hn::Set(di, 0xFFFF)));
   const VD y = hn::PromoteTo(d, hn::ShiftRight<16>(pixel));
-  const auto linear = [&](VD constant, VD dx, VD dy) HWY_ATTR {
-    return hn::Add(hn::Add(constant, hn::Mul(dx, x)), hn::Mul(dy, y));
-  };
+  const auto linear = [&](VD constant, VD dx, VD dy)
+                          HWY_ATTR { return hn::MulAdd(dy, y, hn::MulAdd(dx, x, constant)); };
   const VD q_dx = read(kQdx), q_dy = read(kQdy);
   const VD q = hn::Max(linear(read(kQ), q_dx, q_dy), read(kQMin));
   const VD t = hn::Div(hn::Set(d, 1.0), q);
@@ -96,16 +88,15 @@ HWY_INLINE void evaluateVector(const DoubleReader<kOneTriangle>& read, hn::Vec<I
   if (mask.has(Plane::kDepth)) storeFloat(t, block.floats(Plane::kDepth) + at);
 
   const VD du1 = read(kDu1), dv1 = read(kDv1), du2 = read(kDu2), dv2 = read(kDv2);
-  const auto mix = [](VD p, VD s, VD r, VD w)
-                       HWY_ATTR { return hn::Add(hn::Mul(p, s), hn::Mul(r, w)); };
-  storeUv(hn::Add(read(kU0), mix(b1, du1, b2, du2)), block.plane(Plane::kUInt) + at,
+  const auto mix = [](VD p, VD s, VD r, VD w) HWY_ATTR { return hn::MulAdd(p, s, hn::Mul(r, w)); };
+  storeUv(hn::MulAdd(b2, du2, hn::MulAdd(b1, du1, read(kU0))), block.plane(Plane::kUInt) + at,
           block.plane(Plane::kUFrac) + at);
-  storeUv(hn::Add(read(kV0), mix(b1, dv1, b2, dv2)), block.plane(Plane::kVInt) + at,
+  storeUv(hn::MulAdd(b2, dv2, hn::MulAdd(b1, dv1, read(kV0))), block.plane(Plane::kVInt) + at,
           block.plane(Plane::kVFrac) + at);
 
   // Quotient rule on b = g / q.
   const auto derivative = [&](VD g, VD b, VD dq)
-                              HWY_ATTR { return hn::Mul(hn::Sub(g, hn::Mul(b, dq)), t); };
+                              HWY_ATTR { return hn::Mul(hn::NegMulAdd(b, dq, g), t); };
   const VD b1_dx = derivative(g1_dx, b1, q_dx), b2_dx = derivative(g2_dx, b2, q_dx);
   const VD b1_dy = derivative(g1_dy, b1, q_dy), b2_dy = derivative(g2_dy, b2, q_dy);
   storeFloat(mix(b1_dx, du1, b2_dx, du2), block.floats(Plane::kDudx) + at);
@@ -148,8 +139,7 @@ HWY_INLINE void packVector(const AttributeTable& table, const std::int32_t* slot
   };
   const auto b1 = hn::Load(d, block.b1 + i), b2 = hn::Load(d, block.b2 + i);
   const auto interpolate = [&](std::size_t field) HWY_ATTR {
-    return hn::Add(hn::Add(read(field), hn::Mul(b1, read(field + 3))),
-                   hn::Mul(b2, read(field + 6)));
+    return hn::MulAdd(b2, read(field + 6), hn::MulAdd(b1, read(field + 3), read(field)));
   };
   const FrameVector normal{interpolate(kNormal0), interpolate(kNormal0 + 1),
                            interpolate(kNormal0 + 2)};
