@@ -36,7 +36,7 @@ WIDE LightLobe evaluateLight(ShadingFrame frame, vfloat3 view, SmithLambda lambd
     const HalfSlope h = halfSlope(l, view);
     const SlopeMatrix a = widenedAlpha(material->alpha_g, l, h, light->tap_variance);
     const vfloat p22 = slopeDensity(a, h);
-#if GROOVE
+#if GLINT && GROOVE
     // The density across the grooves alone; along them the lobe stays smooth.
     density = fma(above, grooveDensity(a.vv, h.v), density);
 #else
@@ -57,7 +57,7 @@ WIDE LightLobe evaluateLight(ShadingFrame frame, vfloat3 view, SmithLambda lambd
   const vfloat3 axis = toLocal(frame, broadcast3(light->direction));
   const HalfSlope h = halfSlope(axis, view);
   const SlopeMatrix micro = widenedAlpha(material->alpha_l, axis, h, light->variance);
-#if GROOVE
+#if GLINT && GROOVE
   const vfloat peak_sq = PI * micro.vv;
 #else
   const vfloat peak_sq = PI * PI * micro.determinant;
@@ -85,7 +85,7 @@ WIDE LightLobe evaluateLight(ShadingFrame frame, vfloat3 view, SmithLambda lambd
   lobe.cosine = l.z;
 
   // P(h) = D_g(h) / D_l(0).
-#if GROOVE
+#if GLINT && GROOVE
   const vfloat density = grooveDensity((vfloat)(alpha_g.y * alpha_g.y), h.v);
   lobe.probability =
       above ? min(density * (alpha_l.y * 1.77245385f), (vfloat)(1.0f)) : (vfloat)(0.0f);
@@ -122,8 +122,10 @@ WIDE HalfVectorCell halfVectorCell(LightLobe lobe, constant const GlintMaterial*
 WIDE CellMaterial cellMaterial(constant const GlintMaterial* material, float2 gamma) {
   CellMaterial m;
   m.density = material->density / (gamma.x * gamma.y);
+#if SIZE_VARIATION
   m.size_scale = material->size_variation / BYTE_SUM_SIGMA;
   m.size_offset = fma(-BYTE_SUM_MEAN, m.size_scale, 1.0f);
+#endif
   m.most_expected = 0x1p30f / fma(material->size_variation, 3.5f, 1.0f);
 #if GLINT_COLOUR
   m.material = material;

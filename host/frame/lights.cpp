@@ -8,10 +8,11 @@
 namespace glintmark {
 namespace {
 
-// Number of taps whose equal parts of the cone are no wider than kTapHalfAngle_rad.
-int tapCount(double one_minus_cos) {
+// Number of taps for a cone, as host/frame/lights.h says.
+int tapCount(double half_angle_rad, double one_minus_cos) {
+  if (half_angle_rad <= kOneTapHalfAngle_rad) return 1;
   const double per_tap = 1.0 - std::cos(kTapHalfAngle_rad);
-  return std::max(1, static_cast<int>(std::ceil(one_minus_cos / per_tap)));
+  return std::max(kLeastTaps, static_cast<int>(std::ceil(one_minus_cos / per_tap)));
 }
 
 // Directions of equal solid angles around `axis`, on a spiral that turns by the golden angle.
@@ -46,7 +47,7 @@ PreparedLights prepareLights(std::span<const ConeLight> lights) {
     const double half_angle = light.direction.w;
     const double half_sin = std::sin(0.5 * half_angle);
     const double one_minus_cos = 2.0 * half_sin * half_sin;
-    const int count = tapCount(one_minus_cos);
+    const int count = tapCount(half_angle, one_minus_cos);
 
     LightParams params{};
     params.direction = {static_cast<float>(axis.x), static_cast<float>(axis.y),

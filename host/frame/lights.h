@@ -7,10 +7,14 @@
 
 namespace glintmark {
 
-/// Widest half-angle [rad] that one tap stands for. To first order a half vector moves linearly
-/// with the light, which tests/frame/test_lights.cpp finds good to about 1 % of the lobe up to
-/// here.
-inline constexpr double kTapHalfAngle_rad = 0.2;
+/// Up to this half-angle [rad] a light is one tap: to first order half vectors move linearly with
+/// the light, which is good to 1 % of the lobe up to here (tests/glint/test_light_cones.cpp).
+inline constexpr double kOneTapHalfAngle_rad = 0.1;
+/// Wider lights are cut into taps of this half-angle. Grazing views decide: 0.1 would leave errors
+/// of 20 % of the brightest highlight under a light as wide as the sky, 0.07 leaves 6 %.
+inline constexpr double kTapHalfAngle_rad = 0.07;
+/// Fewer taps than this lie lopsided around the axis.
+inline constexpr int kLeastTaps = 14;
 
 struct PreparedLights {
   std::vector<LightParams> lights;

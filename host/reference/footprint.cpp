@@ -11,6 +11,7 @@ namespace {
 constexpr std::int32_t kOffsetU = 1237;  // "The draws", step 1
 constexpr std::int32_t kOffsetV = 2011;
 constexpr double kLeastStretch = 0x1p-10;
+constexpr double kStretchUnit = 4096;
 constexpr double kDerivativeLimit = 0x1p30;
 constexpr double kLeastExtent = 0x1p-28;
 constexpr double kMostExtent = 0x1p29;
@@ -51,7 +52,10 @@ void split(FixedCoordinate c, std::int32_t offset, double stretch, int level, st
 
 glm::dvec2 gridStretch(const glm::dvec2& alpha_g, const glm::dvec2& alpha_l) {
   const glm::dvec2 m = mesoRoughness(alpha_g, alpha_l);
-  return {std::clamp(m.x / m.y, kLeastStretch, 1.0), std::clamp(m.y / m.x, kLeastStretch, 1.0)};
+  const auto rounded = [](double gamma) {
+    return std::clamp(std::round(gamma * kStretchUnit) / kStretchUnit, kLeastStretch, 1.0);
+  };
+  return {rounded(m.x / m.y), rounded(m.y / m.x)};
 }
 
 double cellSizeZk16(const PixelFootprint& footprint, int ka) {

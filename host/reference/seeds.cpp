@@ -35,7 +35,7 @@ std::uint32_t cellSeed(std::int32_t cell_u, std::int32_t cell_v) {
 std::uint32_t pairSeed(std::uint32_t cell_seed, HalfVectorIndex half) {
   const auto j_u = static_cast<std::uint32_t>(cellOf(half.u, cell_seed & 0xFFFFu));
   const auto j_v = static_cast<std::uint32_t>(cellOf(half.v, cell_seed >> 16));
-  std::uint32_t d = cell_seed ^ (j_u + (j_v << 16));
+  std::uint32_t d = cell_seed ^ (j_u + j_v * 0x01000193u);
   d *= 0x846CA68Bu;
   d ^= d >> 15;
   d *= 0xC2B2AE3Du;

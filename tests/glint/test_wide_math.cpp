@@ -15,8 +15,8 @@ namespace glintmark {
 namespace {
 
 // As wide_math.clh states them.
-constexpr double kExp2Error = 2e-7, kLog2Error = 2e-7, kReciprocalError = 2e-7;
-constexpr double kRsqrtError = 3e-7, kQuantileError = 1e-6;
+constexpr double kExp2Error = 5e-7, kLog2Error = 2e-7, kReciprocalError = 2e-7;
+constexpr double kRsqrtError = 3e-7, kQuantileError = 1.2e-6;
 
 constexpr std::size_t kSamples = 1 << 16;
 
