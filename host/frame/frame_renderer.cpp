@@ -95,7 +95,6 @@ void FrameRenderer::Impl::makeBands() {
   const int band_rows = static_cast<int>(
       std::clamp<std::size_t>(rows, 1, static_cast<std::size_t>(camera.height_px)));
 
-  bands.clear();
   for (int top = 0; top < camera.height_px; top += band_rows) {
     Band band;
     band.top_px = top;
@@ -125,6 +124,7 @@ void FrameRenderer::Impl::makeBuffers(Band& band, FrameTimes& times) {
 }
 
 void FrameRenderer::Impl::makeLaunches(Band& band) {
+  band.launches.clear();
   for (const PixelList& list : band.planes.lists) {
     const Material& material = scene.materials[list.material];
     Launch launch;
@@ -182,7 +182,7 @@ FrameRenderer::~FrameRenderer() = default;
 
 FrameTimes FrameRenderer::prepare() {
   FrameTimes times;
-  impl_->makeBands();
+  if (impl_->bands.empty()) impl_->makeBands();  // later calls reuse their memory
   impl_->makeLights();
   impl_->configs.clear();
   const PlaneMask mask = planesFor(impl_->scene, impl_->options);
