@@ -149,6 +149,19 @@ WIDE Footprint loadFootprint(global const uint* planes, size_t stride, size_t en
 }
 #endif
 
+// Unit vector from the pixel's surface to the eye, in the local frame.
+WIDE vfloat3 viewDirection(vuint pixel, constant const FrameParams* frame, ShadingFrame basis) {
+  const vfloat px = toFloat(pixel & 0xFFFFu), py = toFloat(pixel >> 16);
+  const vfloat3 start = broadcast3(frame->ray_origin);
+  const vfloat3 dx = broadcast3(frame->ray_dx), dy = broadcast3(frame->ray_dy);
+  const vfloat3 ray = {fma(px, dx.x, fma(py, dy.x, start.x)), fma(px, dx.y, fma(py, dy.y, start.y)),
+                       fma(px, dx.z, fma(py, dy.z, start.z))};
+  vfloat3 view = toLocal(basis, scale3(ray, -wideRsqrt(dot3(ray, ray))));
+  // Interpolated normals may turn from the eye at silhouettes; keep Eq. 1 finite there.
+  view.z = max(view.z, (vfloat)(1e-4f));
+  return view;
+}
+
 // planes: frame->plane_stride entries each, slots given by the PLANE_* switches. radiance: three
 // planes (r, g, b) of the same stride. cells: visited cells | 2^31 where a limit cut the walk.
 kernel void shade(global const uint* planes, constant const FrameParams* frame,
@@ -164,19 +177,10 @@ kernel void shade(global const uint* planes, constant const FrameParams* frame,
   const size_t entry = frame->list_offset + first;
   const size_t stride = frame->plane_stride;
 
-  const vuint pixel = loadUint(planes, PLANE_PIXEL * stride + entry);
   const ShadingFrame basis = unpackFrame(loadUint(planes, PLANE_FRAME0 * stride + entry),
                                          loadUint(planes, PLANE_FRAME1 * stride + entry));
-  const vfloat px = toFloat(pixel & 0xFFFFu), py = toFloat(pixel >> 16);
-  vfloat3 ray = {fma(px, (vfloat)(frame->ray_dx.x),
-                     fma(py, (vfloat)(frame->ray_dy.x), (vfloat)(frame->ray_origin.x))),
-                 fma(px, (vfloat)(frame->ray_dx.y),
-                     fma(py, (vfloat)(frame->ray_dy.y), (vfloat)(frame->ray_origin.y))),
-                 fma(px, (vfloat)(frame->ray_dx.z),
-                     fma(py, (vfloat)(frame->ray_dy.z), (vfloat)(frame->ray_origin.z)))};
-  vfloat3 view = toLocal(basis, scale3(ray, -wideRsqrt(dot3(ray, ray))));
-  // Interpolated normals may turn from the eye at silhouettes; keep Eq. 1 finite there.
-  view.z = max(view.z, (vfloat)(1e-4f));
+  const vfloat3 view =
+      viewDirection(loadUint(planes, PLANE_PIXEL * stride + entry), frame, basis);
   const SmithLambda lambda_view = smithLambda(view, material->alpha_g);
 
 #if GLINT
