@@ -16,8 +16,8 @@ constexpr int kSamples = 40000;
 // A cone is a set of taps, each a narrow lobe to first order. What that leaves, relative to the
 // brightest that a light of that size gives the view: on average over views and lights, and at
 // worst, which is a view 10 degrees above the surface under a light as wide as the sky.
-constexpr double kMeanConeTolerance = 0.04;
-constexpr double kWorstConeTolerance = 0.25;
+constexpr double kMeanConeTolerance = 0.015;
+constexpr double kWorstConeTolerance = 0.08;
 constexpr double kDiffuseTolerance = 0.02;
 
 glm::dvec3 direction(double angle_deg, double turn_deg) {
