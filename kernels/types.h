@@ -14,14 +14,14 @@
 
 // One glint material, in the paper's user parameters made absolute. [ZK16] Sect. 4.5
 typedef struct GlintMaterial {
-  float2 alpha_g;        // global Beckmann roughness along u and v, (0, 1]
-  float2 alpha_l;        // roughness of one microdetail, absolute, (0, alpha_g]
-  float density;         // microdetails per unit uv area, > 0
-  float size_variation;  // standard deviation of the microdetail count factor, >= 0
-  float intensity;       // overall scale of the specular lobe, >= 0
-  uint palette_count;    // colours in palette; 0 = uniform colour wheel
-  float4 f0;             // rgb reflectance at normal incidence; w unused
-  float4 albedo;         // rgb diffuse albedo; w unused
+  float2 alpha_g;                  // global Beckmann roughness along u and v, (0, 1]
+  float2 alpha_l;                  // roughness of one microdetail, absolute, (0, alpha_g]
+  float density;                   // microdetails per unit uv area, > 0
+  float size_variation;            // standard deviation of the microdetail count factor, >= 0
+  float intensity;                 // overall scale of the specular lobe, >= 0
+  uint palette_count;              // colours in palette; 0 = uniform colour wheel
+  float4 f0;                       // rgb reflectance at normal incidence; w unused
+  float4 albedo;                   // rgb diffuse albedo; w unused
   float4 palette[GM_MAX_PALETTE];  // rgb albedo of a microdetail; w unused
 } GlintMaterial;
 
@@ -40,7 +40,7 @@ typedef struct LightParams {
   float variance;      // per-axis variance of directions over the whole cone, 0 for a point
   float tap_variance;  // the same over one tap's part
   uint first_tap;
-  uint tap_count;      // >= 1
+  uint tap_count;  // >= 1
 } LightParams;
 
 // What one shading launch needs beside its pixels.
