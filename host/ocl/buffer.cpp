@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdint>
 
+#include "host/core/stopwatch.h"
 #include "host/ocl/opencl.h"
 
 namespace glintmark {
@@ -51,13 +51,13 @@ Buffer::Impl& nonEmpty(Buffer::Impl* impl) {
 // Wall time [ns] of `transfer`, with OpenCL errors made into ours.
 template <typename Transfer>
 double timed(const std::string& doing, Transfer&& transfer) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   try {
     transfer();
   } catch (const cl::Error& error) {
     throw openClError(doing, error);
   }
-  return std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count();
+  return watch.elapsedNs();
 }
 
 }  // namespace

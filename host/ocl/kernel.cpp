@@ -1,17 +1,10 @@
 #include <fmt/format.h>
 
-#include <chrono>
-
+#include "host/core/stopwatch.h"
 #include "host/ocl/opencl.h"
 
 namespace glintmark {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double nanosecondsSince(Clock::time_point start) {
-  return std::chrono::duration<double, std::nano>(Clock::now() - start).count();
-}
 
 // PoCL compiles a kernel at its first enqueue for each local size, once more for grids of 2^16
 // work-items and more (it uses 16-bit indices below).
@@ -52,13 +45,13 @@ LaunchTimes Kernel::launch(std::span<const KernelArg> args, std::size_t global_s
   const std::size_t groups = (global_size + local_size - 1) / local_size;
   try {
     setArgs(*impl_, args);
-    const auto start = Clock::now();
+    const Stopwatch watch;
     cl::Event event;
     impl_->queue.enqueueNDRangeKernel(impl_->kernel, cl::NullRange,
                                       cl::NDRange(groups * local_size), cl::NDRange(local_size),
                                       nullptr, &event);
     event.wait();
-    times.wall_ns = nanosecondsSince(start);
+    times.wall_ns = watch.elapsedNs();
     const cl_ulong begun_ns = event.getProfilingInfo<CL_PROFILING_COMMAND_START>();
     const cl_ulong ended_ns = event.getProfilingInfo<CL_PROFILING_COMMAND_END>();
     times.event_ns = static_cast<double>(ended_ns - begun_ns);

@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
-#include <chrono>
 #include <filesystem>
 #include <map>
 #include <optional>
 
+#include "host/core/stopwatch.h"
 #include "host/ocl/build_failure.h"
 #include "host/ocl/disk_cache.h"
 #include "host/ocl/kernel_folder.h"
@@ -76,7 +76,7 @@ struct ProgramCache::Impl {
 };
 
 Program ProgramCache::Impl::build(const std::string& file, const std::string& own_options) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   if (!fs::is_regular_file(fs::path(folder) / file))
     throw Error(fmt::format("kernel file '{}' is not in the kernel folder '{}'", file, folder));
 
@@ -99,8 +99,7 @@ Program ProgramCache::Impl::build(const std::string& file, const std::string& ow
   program->built = std::make_shared<BuiltProgram>(
       BuiltProgram{*built, device.device, device.queue, file, options, {}});
   memory[key] = program->built;
-  program->build_ns =
-      std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count();
+  program->build_ns = watch.elapsedNs();
   // After the clock has stopped: asking PoCL for a binary compiles every kernel once more.
   if (!program->from_disk_cache) disk.store(name, key, programBinary(*built));
   return Program(program);

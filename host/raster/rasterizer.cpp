@@ -5,10 +5,10 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <chrono>
 #include <vector>
 
 #include "host/core/error.h"
+#include "host/core/stopwatch.h"
 #include "host/raster/attribute_table.h"
 #include "host/raster/binning.h"
 #include "host/raster/pixel_attributes.h"
@@ -24,12 +24,6 @@ constexpr std::size_t kTransformGrain = 8192;
 // 3 * index and 4 * index are computed in 32 bits.
 constexpr std::size_t kMaxIndex = std::size_t{1} << 29;
 constexpr std::uint32_t kMaxMaterials = 4096;
-
-using Clock = std::chrono::steady_clock;
-
-double nanosecondsSince(Clock::time_point start) {
-  return std::chrono::duration<double, std::nano>(Clock::now() - start).count();
-}
 
 void checkMesh(const TriangleMesh& mesh) {
   const std::size_t n = mesh.positions.size();
@@ -84,7 +78,7 @@ struct Rasterizer::Impl {
     });
   }
 
-  void setUp(const TriangleMesh& mesh, const Camera& camera, bool cull_back_faces);
+  RasterStats setUp(const TriangleMesh& mesh, const Camera& camera, bool cull_back_faces);
   void findVisible();
   void layOut(PlaneMask mask, PixelPlanes& out);
   void resolve(const Camera& camera, PixelPlanes& out);
@@ -102,7 +96,9 @@ struct Rasterizer::Impl {
   std::vector<std::unique_ptr<ResolveScratch>> scratch;  // per thread
 };
 
-void Rasterizer::Impl::setUp(const TriangleMesh& mesh, const Camera& camera, bool cull_back_faces) {
+RasterStats Rasterizer::Impl::setUp(const TriangleMesh& mesh, const Camera& camera,
+                                    bool cull_back_faces) {
+  const Stopwatch watch;
   checkMesh(mesh);
   material_count = materialCount(mesh);
   projection = makeProjection(camera);
@@ -121,6 +117,12 @@ void Rasterizer::Impl::setUp(const TriangleMesh& mesh, const Camera& camera, boo
   forEach(bins.chunkCount(), [&](std::size_t chunk) { bins.collect(projected, chunk); });
   bins.merge();
   forEach(bins.chunkCount(), [&](std::size_t chunk) { bins.scatter(chunk); });
+
+  RasterStats stats;
+  stats.setup_ns = watch.elapsedNs();
+  stats.triangles_in = mesh.triangleCount();
+  stats.triangles_drawn = bins.drawnCount();
+  return stats;
 }
 
 void Rasterizer::Impl::findVisible() {
@@ -201,35 +203,23 @@ Rasterizer& Rasterizer::operator=(Rasterizer&&) noexcept = default;
 
 RasterStats Rasterizer::render(const TriangleMesh& mesh, const Camera& camera, bool cull_back_faces,
                                PlaneMask mask, PixelPlanes& out) {
-  RasterStats stats;
-  auto start = Clock::now();
-  impl_->setUp(mesh, camera, cull_back_faces);
-  stats.setup_ns = nanosecondsSince(start);
-  stats.triangles_in = mesh.triangleCount();
-  stats.triangles_drawn = impl_->bins.drawnCount();
-
-  start = Clock::now();
+  RasterStats stats = impl_->setUp(mesh, camera, cull_back_faces);
+  const Stopwatch visibility;
   impl_->findVisible();
-  stats.visibility_ns = nanosecondsSince(start);
+  stats.visibility_ns = visibility.elapsedNs();
 
-  start = Clock::now();
+  const Stopwatch resolve;
   impl_->layOut(mask, out);
   impl_->resolve(camera, out);
-  stats.resolve_ns = nanosecondsSince(start);
+  stats.resolve_ns = resolve.elapsedNs();
   return stats;
 }
 
 RasterStats Rasterizer::renderVisibility(const TriangleMesh& mesh, const Camera& camera,
                                          bool cull_back_faces,
                                          std::vector<std::uint32_t>& triangle_ids) {
-  RasterStats stats;
-  auto start = Clock::now();
-  impl_->setUp(mesh, camera, cull_back_faces);
-  stats.setup_ns = nanosecondsSince(start);
-  stats.triangles_in = mesh.triangleCount();
-  stats.triangles_drawn = impl_->bins.drawnCount();
-
-  start = Clock::now();
+  RasterStats stats = impl_->setUp(mesh, camera, cull_back_faces);
+  const Stopwatch visibility;
   const Projection& p = impl_->projection;
   const auto width = static_cast<std::size_t>(p.width_px);
   triangle_ids.resize(width * static_cast<std::size_t>(p.height_px));
@@ -248,7 +238,7 @@ RasterStats Rasterizer::renderVisibility(const TriangleMesh& mesh, const Camera&
             at == kNoEntry ? kNoTriangle : impl_->bins.triangle(entries[at]);
       }
   });
-  stats.visibility_ns = nanosecondsSince(start);
+  stats.visibility_ns = visibility.elapsedNs();
   return stats;
 }
 
