@@ -1,25 +1,75 @@
 // glintmark bench: the papers' timing tables.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <memory>
 
-#include "host/cli/command_line.h"
+#include "host/cli/bench_run.h"
+#include "host/cli/interrupt.h"
 #include "host/cli/zk16_bench.h"
 #include "host/core/error.h"
 
 namespace glintmark {
 namespace {
 
-int runBench(const CommandLine& line, const std::vector<std::string>& tables,
+// In the order in which they are measured and printed.
+std::vector<BenchTable> allTables() {
+  return {zk16Bench()};
+}
+
+std::vector<std::string> namesOf(const std::vector<BenchTable>& tables) {
+  std::vector<std::string> names;
+  for (const BenchTable& table : tables) names.push_back(table.name);
+  return names;
+}
+
+// Throws Error if some chosen name is none of the known ones.
+void requireKnown(const char* what, const std::vector<std::string>& chosen,
+                  const std::vector<std::string>& known) {
+  for (const std::string& name : chosen) {
+    if (std::ranges::find(known, name) == known.end())
+      throw Error(
+          fmt::format("unknown {} '{}'; {}s are {}", what, name, what, fmt::join(known, ", ")));
+  }
+}
+
+// Does the table have any of the chosen names?
+bool offersAny(const std::vector<std::string>& known, const std::vector<std::string>& chosen) {
+  return chosen.empty() || !selectNames(known, chosen).empty();
+}
+
+std::vector<BenchTable> chooseTables(const std::vector<std::string>& names,
+                                     const BenchOptions& options) {
+  std::vector<BenchTable> tables = allTables();
+  requireKnown("table", names, namesOf(tables));
+  if (!names.empty())
+    std::erase_if(tables, [&](const BenchTable& table) {
+      return std::ranges::find(names, table.name) == names.end();
+    });
+  std::vector<std::string> scenes, views;
+  for (const BenchTable& table : tables) {
+    scenes.insert(scenes.end(), table.scenes.begin(), table.scenes.end());
+    views.insert(views.end(), table.views.begin(), table.views.end());
+  }
+  requireKnown("scene", options.scenes, scenes);
+  requireKnown("view", options.views, views);
+  std::erase_if(tables, [&](const BenchTable& table) {
+    return !offersAny(table.scenes, options.scenes) || !offersAny(table.views, options.views);
+  });
+  return tables;
+}
+
+int runBench(const CommandLine& line, const std::vector<std::string>& names,
              const BenchOptions& options) {
-  for (const std::string& table : tables) {
-    if (table != "zk16") throw Error(fmt::format("unknown table '{}'; tables are zk16", table));
-  }
-  if (options.reps < 1 || options.reps > 10000) {
-    throw Error(fmt::format("--reps {} is not from 1 to 10000", options.reps));
-  }
-  return runZk16Bench(line, options);
+  const std::vector<BenchTable> tables = chooseTables(names, options);
+  const InterruptGuard guard;
+  BenchRun run(line, options);
+  for (const BenchTable& table : tables) table.measure(run);
+  std::string text;
+  for (const BenchTable& table : tables) text += (text.empty() ? "" : "\n") + table.text(run);
+  return run.finish(text);
 }
 
 }  // namespace
@@ -28,7 +78,10 @@ void addBenchCommand(CLI::App& app, CommandLine& line) {
   auto options = std::make_shared<BenchOptions>();
   auto tables = std::make_shared<std::vector<std::string>>();
   CLI::App* command = app.add_subcommand("bench", "A paper's timing table beside our times");
-  command->add_option("table", *tables, "zk16 (default: all there are)")->type_name("TABLE");
+  command
+      ->add_option("table", *tables,
+                   fmt::format("{} (default: all)", fmt::join(namesOf(allTables()), ", ")))
+      ->type_name("TABLE");
   command->add_option("--scene", options->scenes, "Only these scenes; repeatable")
       ->allow_extra_args(false);
   command->add_option("--view", options->views, "Only these views: steep, grazing; repeatable")

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "host/cli/interrupt.h"
+#include "host/cli/bench_run.h"
 #include "host/core/statistics.h"
 #include "host/ocl/static_counts.h"
 #include "host/report/metrics.h"
@@ -27,10 +27,6 @@ Samples scaled(const Samples& samples, double factor) {
   Samples result = samples;
   for (double& sample : result) sample *= factor;
   return result;
-}
-
-void stopIfInterrupted() {
-  if (InterruptGuard::interrupted()) throw Interrupted("interrupted");
 }
 
 std::size_t badValueCount(const Image& image) {
