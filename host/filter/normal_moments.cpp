@@ -1,0 +1,34 @@
+#include "host/filter/normal_moments.h"
+
+#include <algorithm>
+
+namespace glintmark {
+namespace {
+
+template <class Channels>
+MipTexels mipMoments(const NormalMap& map, int channels, int vectors, const Channels& write) {
+  checkNormalMap(map);
+  Image finest(map.width_px, map.height_px, channels);
+  for (std::size_t i = 0; i < map.normals.size(); ++i) {
+    write(map.normals[i], finest.pixels.data() + i * channels);
+  }
+  return packMipChain(makeMipChain(std::move(finest)), vectors);
+}
+
+}  // namespace
+
+MipTexels meanNormals(const NormalMap& map) {
+  return mipMoments(map, 3, 1,
+                    [](const glm::vec3& n, float* to) { to[0] = n.x, to[1] = n.y, to[2] = n.z; });
+}
+
+MipTexels leanMoments(const NormalMap& map) {
+  return mipMoments(map, 5, 2, [](const glm::vec3& n, float* to) {
+    glm::vec2 slope = glm::vec2(n) / n.z;
+    slope *= std::min(1.0f, kMaxLeanSlope / std::max(glm::length(slope), 1e-20f));
+    to[0] = slope.x, to[1] = slope.y, to[2] = slope.x * slope.x, to[3] = slope.y * slope.y;
+    to[4] = slope.x * slope.y;
+  });
+}
+
+}  // namespace glintmark

@@ -1,0 +1,22 @@
+// Linear moments of normals, mip-mapped: what the single-lobe methods read.
+#pragma once
+#include "host/filter/mip_texels.h"
+#include "host/filter/normal_map.h"
+
+namespace glintmark {
+
+/// One float4 a texel: mean normal (x, y, z), not made unit, and 0. Its direction is the plain
+/// mip-mapped normal, its length r the evenness of the normals that Toksvig's roughness comes from:
+/// variance per axis (1 - r) / r. [Tok04]
+MipTexels meanNormals(const NormalMap& map);
+
+/// Slopes steeper than this are laid here, so that one normal near the horizon does not take over
+/// the second moments of every texel above it.
+inline constexpr float kMaxLeanSlope = 20.0f;
+
+/// Two float4 a texel: means of slopes (sx, sy, sx^2, sy^2) and (sx sy, 0, 0, 0), where
+/// (sx, sy) = (nx, ny) / nz points as the normal leans. Covariance: mean of products less product
+/// of means. [OB10]
+MipTexels leanMoments(const NormalMap& map);
+
+}  // namespace glintmark
