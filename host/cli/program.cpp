@@ -43,10 +43,9 @@ void addCommonOptions(CLI::App& app, CommonOptions& common) {
 }
 
 // Options of the chosen command, then the common ones, each once.
-std::string knownOptions(const CLI::App& app, const CLI::App* command) {
+std::string knownOptions(const CLI::App& app, const CLI::App& command) {
   std::vector<std::string> known;
-  for (const CLI::App* level : {command, &app}) {
-    if (level == nullptr) continue;
+  for (const CLI::App* level : {&command, &app}) {
     for (const CLI::Option* option : level->get_options()) {
       const std::string name = option->get_name();
       if (option->get_positional() || std::ranges::find(known, name) != known.end()) continue;
@@ -56,32 +55,47 @@ std::string knownOptions(const CLI::App& app, const CLI::App* command) {
   return fmt::format("{}", fmt::join(known, ", "));
 }
 
-std::string knownCommands(CLI::App& app) {
+std::string knownCommands(const CLI::App& app) {
   std::vector<std::string> known;
-  for (const CLI::App* command : app.get_subcommands(nullptr)) known.push_back(command->get_name());
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    known.push_back(command->get_name());
   return fmt::format("{}", fmt::join(known, ", "));
+}
+
+// The innermost command that was named, or the program itself.
+CLI::App& chosenCommand(CLI::App& app) {
+  CLI::App* command = &app;
+  while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
+  return *command;
+}
+
+// "glintmark fit ltc"
+std::string pathOf(CLI::App& command) {
+  CLI::App* parent = command.get_parent();
+  return (parent == nullptr ? "" : pathOf(*parent) + " ") + command.get_name();
 }
 
 // One sentence for whatever CLI11 did not like.
 std::string explain(CLI::App& app, const CLI::ParseError& error) {
-  const std::vector<CLI::App*> chosen = app.get_subcommands();
-  const CLI::App* command = chosen.empty() ? nullptr : chosen.front();
+  CLI::App& command = chosenCommand(app);
+  const std::string name = command.get_name();
+  const bool has_commands = !command.get_subcommands(nullptr).empty();
   for (const std::string& word : app.remaining(true)) {
     if (word.starts_with("-")) {
-      return fmt::format("unknown option '{}'; {} knows {}", word,
-                         command ? command->get_name() : "glintmark", knownOptions(app, command));
+      return fmt::format("unknown option '{}'; {} knows {}", word, name,
+                         knownOptions(app, command));
     }
-    if (command == nullptr) {
-      return fmt::format("unknown command '{}'; commands are {}", word, knownCommands(app));
+    if (has_commands) {
+      return fmt::format("unknown command '{}'; commands of {} are {}", word, name,
+                         knownCommands(command));
     }
-    return fmt::format("'{}' is one argument too many for {}", word, command->get_name());
+    return fmt::format("'{}' is one argument too many for {}", word, name);
   }
-  if (command == nullptr && error.get_name() == "RequiredError") {
-    return fmt::format("no command given; commands are {} (see glintmark --help)",
-                       knownCommands(app));
+  if (has_commands && error.get_name() == "RequiredError") {
+    return fmt::format("no command given; commands of {} are {} (see {} --help)", name,
+                       knownCommands(command), pathOf(command));
   }
-  return fmt::format("{} (see glintmark{}{} --help)", error.what(), command ? " " : "",
-                     command ? command->get_name() : "");
+  return fmt::format("{} (see {} --help)", error.what(), pathOf(command));
 }
 
 }  // namespace
@@ -100,6 +114,7 @@ int runProgram(int argc, const char* const* argv) {
   addRenderCommand(app, line);
   addHeatmapCommand(app, line);
   addBenchCommand(app, line);
+  addFitCommand(app, line);
   for (CLI::App* command : app.get_subcommands(nullptr)) command->fallthrough();
 
   try {

@@ -10,18 +10,26 @@ namespace glintmark {
 namespace {
 
 constexpr int kMaxKa = 64;
+constexpr int kMaxLobes = 8;
+constexpr int kMaxAnisotropy = 16;
 
 // In the order of enum Plane.
 constexpr std::array<const char*, kPlaneCount> kPlaneNames = {
     "PIXEL", "U_INT", "V_INT", "U_FRAC", "V_FRAC", "DUDX",
     "DVDX",  "DUDY",  "DVDY",  "FRAME0", "FRAME1", "DEPTH"};
 
+void requireRange(const char* what, int value, int most) {
+  if (value < 1 || value > most)
+    throw Error(fmt::format("{} {} is out of range; it must be 1 to {}", what, value, most));
+}
+
 void validate(const KernelConfig& config) {
   const int w = config.width;
   if (w != 1 && w != 4 && w != 8 && w != 16)
     throw Error(fmt::format("kernel width {} is not one of 1, 4, 8 and 16", w));
-  if (config.ka < 1 || config.ka > kMaxKa)
-    throw Error(fmt::format("ka {} is out of range; it must be 1 to {}", config.ka, kMaxKa));
+  requireRange("ka", config.ka, kMaxKa);
+  requireRange("lobe count", config.lobes, kMaxLobes);
+  requireRange("anisotropy", config.anisotropy, kMaxAnisotropy);
   if (config.method != GlintMethod::kZk16 && config.method != GlintMethod::kExact)
     throw Error(fmt::format("glint method {} is unknown; it must be 0 (zk16) or 1 (exact)",
                             static_cast<int>(config.method)));
@@ -33,10 +41,18 @@ std::string buildOptions(const KernelConfig& config) {
   validate(config);
   std::string options = fmt::format(
       "-D WIDTH={} -D GLINT={:d} -D GROOVE={:d} -D GLINT_COLOUR={:d} -D SIZE_VARIATION={:d} "
-      "-D LIGHT_CONE={:d} -D DIFFUSE={:d} -D COUNT_CELLS={:d} -D GLINT_METHOD={} -D KA={}",
+      "-D LIGHT_CONE={:d} -D DIFFUSE={:d} -D COUNT_CELLS={:d} -D GLINT_METHOD={} -D KA={} "
+      "-D GGX={:d}",
       config.width, config.glint, config.groove, config.glint_colour, config.size_variation,
       config.light_cone, config.diffuse, config.count_cells, static_cast<int>(config.method),
-      config.ka);
+      config.ka, config.ggx);
+  options += fmt::format(
+      " -D NORMAL_MAP={:d} -D NORMAL_METHOD={} -D LOBES={} -D ANISOTROPY={} -D HALF_TEXELS={:d} "
+      "-D LTC={:d} -D LTC_METHOD={} -D CLIPLESS={:d} -D LIGHT_TEXTURE={:d} -D MULTISCATTER={} "
+      "-D METAL_COMPENSATION={:d}",
+      config.normal_map, static_cast<int>(config.normal_method), config.lobes, config.anisotropy,
+      config.half_texels, config.ltc, static_cast<int>(config.ltc_method), config.clipless,
+      config.light_texture, static_cast<int>(config.multiscatter), config.metal_compensation);
   for (std::size_t i = 0; i < kPlaneCount; ++i) {
     const Plane plane = static_cast<Plane>(i);
     if (config.planes.has(plane))

@@ -12,6 +12,15 @@ enum class GlintMethod : int {
   kExact = 1,  // uncapped, true parallelogram coverage, exact binomial quantile
 };
 
+/// How the normals under a pixel become one shading normal or lobe. kernels/config.clh explains.
+enum class NormalMethod : int { kMip, kFixed, kToksvig, kLean, kFournier, kGmm };
+
+/// How area lights see the normals' variation below a pixel. [TAO21] Sect. 3
+enum class LtcMethod : int { kOriginal, kTao21, kExact };
+
+/// Model of light scattered more than once among the facets of a diffuse surface.
+enum class Multiscatter : int { kOff, kPublished, kRefit, kEon };
+
 /// Keys the program cache (memory and disk) and is stored with every record. The meaning and range
 /// of each switch stand in kernels/config.clh.
 struct KernelConfig {
@@ -25,7 +34,19 @@ struct KernelConfig {
   bool count_cells = false;
   GlintMethod method = GlintMethod::kZk16;
   int ka = 16;       // K_a, steps along the footprint per grid, 1..64
-  PlaneMask planes;  // planes in the buffer; each becomes PLANE_<NAME> = its slot
+  bool ggx = false;  // NDF of the smooth lobe: GGX, not Beckmann
+  bool normal_map = false;
+  NormalMethod normal_method = NormalMethod::kMip;
+  int lobes = 1;             // of a Gaussian mixture, 1..8
+  int anisotropy = 1;        // most probes along a footprint, 1..16
+  bool half_texels = false;  // half-precision layout of a mixture
+  bool ltc = false;          // the scene has area lights
+  LtcMethod ltc_method = LtcMethod::kOriginal;
+  bool clipless = false;       // area lights are not clipped to the horizon
+  bool light_texture = false;  // some area light is textured
+  Multiscatter multiscatter = Multiscatter::kOff;
+  bool metal_compensation = false;  // specular albedo scaling for light scattered more than once
+  PlaneMask planes;                 // planes in the buffer; each becomes PLANE_<NAME> = its slot
 
   bool operator==(const KernelConfig&) const = default;
 };

@@ -10,7 +10,10 @@ namespace {
 TEST(KernelConfig, DefaultsWriteEverySwitch) {
   EXPECT_EQ(buildOptions({}),
             "-D WIDTH=1 -D GLINT=1 -D GROOVE=0 -D GLINT_COLOUR=0 -D SIZE_VARIATION=1 "
-            "-D LIGHT_CONE=0 -D DIFFUSE=0 -D COUNT_CELLS=0 -D GLINT_METHOD=0 -D KA=16");
+            "-D LIGHT_CONE=0 -D DIFFUSE=0 -D COUNT_CELLS=0 -D GLINT_METHOD=0 -D KA=16 -D GGX=0 "
+            "-D NORMAL_MAP=0 -D NORMAL_METHOD=0 -D LOBES=1 -D ANISOTROPY=1 -D HALF_TEXELS=0 "
+            "-D LTC=0 -D LTC_METHOD=0 -D CLIPLESS=0 -D LIGHT_TEXTURE=0 -D MULTISCATTER=0 "
+            "-D METAL_COMPENSATION=0");
 }
 
 TEST(KernelConfig, EverySwitchShows) {
@@ -22,16 +25,26 @@ TEST(KernelConfig, EverySwitchShows) {
   config.size_variation = false;
   config.method = GlintMethod::kExact;
   config.ka = 64;
+  config.ggx = config.normal_map = config.half_texels = config.ltc = config.clipless = true;
+  config.light_texture = config.metal_compensation = true;
+  config.normal_method = NormalMethod::kGmm;
+  config.lobes = 8;
+  config.anisotropy = 16;
+  config.ltc_method = LtcMethod::kExact;
+  config.multiscatter = Multiscatter::kEon;
   EXPECT_EQ(buildOptions(config),
             "-D WIDTH=16 -D GLINT=0 -D GROOVE=1 -D GLINT_COLOUR=1 -D SIZE_VARIATION=0 "
-            "-D LIGHT_CONE=1 -D DIFFUSE=1 -D COUNT_CELLS=1 -D GLINT_METHOD=1 -D KA=64");
+            "-D LIGHT_CONE=1 -D DIFFUSE=1 -D COUNT_CELLS=1 -D GLINT_METHOD=1 -D KA=64 -D GGX=1 "
+            "-D NORMAL_MAP=1 -D NORMAL_METHOD=5 -D LOBES=8 -D ANISOTROPY=16 -D HALF_TEXELS=1 "
+            "-D LTC=1 -D LTC_METHOD=2 -D CLIPLESS=1 -D LIGHT_TEXTURE=1 -D MULTISCATTER=3 "
+            "-D METAL_COMPENSATION=1");
 }
 
 TEST(KernelConfig, PlanesBecomeTheirSlots) {
   KernelConfig config;
   config.planes = {Plane::kDepth, Plane::kPixel, Plane::kDvdx};
   EXPECT_TRUE(buildOptions(config).ends_with(
-      " -D KA=16 -D PLANE_PIXEL=0 -D PLANE_DVDX=1 -D PLANE_DEPTH=2"));
+      " -D METAL_COMPENSATION=0 -D PLANE_PIXEL=0 -D PLANE_DVDX=1 -D PLANE_DEPTH=2"));
   config.planes = PlaneMask::all();
   EXPECT_TRUE(buildOptions(config).ends_with(
       " -D PLANE_PIXEL=0 -D PLANE_U_INT=1 -D PLANE_V_INT=2 -D PLANE_U_FRAC=3 -D PLANE_V_FRAC=4"
@@ -41,7 +54,7 @@ TEST(KernelConfig, PlanesBecomeTheirSlots) {
 
 TEST(KernelConfig, DifferentConfigsGiveDifferentOptions) {
   std::set<std::string> seen;
-  for (int bits = 0; bits < 128; ++bits) {
+  for (int bits = 0; bits < 1 << 14; ++bits) {
     KernelConfig config;
     config.glint = bits & 1;
     config.groove = bits & 2;
@@ -50,9 +63,16 @@ TEST(KernelConfig, DifferentConfigsGiveDifferentOptions) {
     config.light_cone = bits & 16;
     config.diffuse = bits & 32;
     config.count_cells = bits & 64;
+    config.ggx = bits & 128;
+    config.normal_map = bits & 256;
+    config.half_texels = bits & 512;
+    config.ltc = bits & 1024;
+    config.clipless = bits & 2048;
+    config.light_texture = bits & 4096;
+    config.metal_compensation = bits & 8192;
     seen.insert(buildOptions(config));
   }
-  EXPECT_EQ(seen.size(), 128u);
+  EXPECT_EQ(seen.size(), std::size_t{1} << 14);
 }
 
 TEST(KernelConfig, RangesAreChecked) {
@@ -66,6 +86,18 @@ TEST(KernelConfig, RangesAreChecked) {
     config.width = width;
     EXPECT_EQ(errorOf([&] { buildOptions(config); }),
               "kernel width " + std::to_string(width) + " is not one of 1, 4, 8 and 16");
+  }
+  for (int lobes : {0, 9}) {
+    KernelConfig config;
+    config.lobes = lobes;
+    EXPECT_EQ(errorOf([&] { buildOptions(config); }),
+              "lobe count " + std::to_string(lobes) + " is out of range; it must be 1 to 8");
+  }
+  for (int anisotropy : {0, 17}) {
+    KernelConfig config;
+    config.anisotropy = anisotropy;
+    EXPECT_EQ(errorOf([&] { buildOptions(config); }),
+              "anisotropy " + std::to_string(anisotropy) + " is out of range; it must be 1 to 16");
   }
   for (int ka : {-5, 0, 65}) {
     KernelConfig config;
