@@ -25,6 +25,7 @@ __kernel void probeTypeSizes(__global uint* out) {
   out[1] = (uint)sizeof(ConeLight);
   out[2] = (uint)sizeof(LightParams);
   out[3] = (uint)sizeof(FrameParams);
+  out[4] = (uint)sizeof(MipTexture);
 }
 
 // Byte offsets of members that follow a change of alignment. One work-item.

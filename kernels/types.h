@@ -54,4 +54,18 @@ typedef struct FrameParams {
   uint plane_stride;  // entries between two planes
 } FrameParams;
 
+// Levels of the largest texture, 32768 texels wide.
+#define GM_MAX_MIP_LEVELS 16u
+
+// A mip chain in one buffer of float4, row after row and level after level. Level l has
+// max(1, width >> l) x max(1, height >> l) texels; row 0 is at v = 0. A texel is 1, 2, 4 or 8
+// float4.
+typedef struct MipTexture {
+  uint width;   // texels of level 0, 1 to 32768
+  uint height;  // the same
+  uint level_count;
+  uint reserved;                  // 0
+  uint first[GM_MAX_MIP_LEVELS];  // first texel of each level, counted in texels
+} MipTexture;
+
 #endif

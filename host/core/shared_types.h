@@ -21,9 +21,11 @@ static_assert(sizeof(GlintMaterial) == 192);
 static_assert(sizeof(ConeLight) == 32);
 static_assert(sizeof(LightParams) == 48);
 static_assert(sizeof(FrameParams) == 64);
+static_assert(sizeof(MipTexture) == 80);
 
 /// Sizes in the order in which probe.cl's `probeTypeSizes` reports them.
-inline constexpr std::array<std::uint32_t, 4> kSharedTypeSizes = {
-    sizeof(GlintMaterial), sizeof(ConeLight), sizeof(LightParams), sizeof(FrameParams)};
+inline constexpr std::array<std::uint32_t, 5> kSharedTypeSizes = {
+    sizeof(GlintMaterial), sizeof(ConeLight), sizeof(LightParams), sizeof(FrameParams),
+    sizeof(MipTexture)};
 
 }  // namespace glintmark
