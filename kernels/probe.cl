@@ -26,6 +26,7 @@ __kernel void probeTypeSizes(__global uint* out) {
   out[2] = (uint)sizeof(LightParams);
   out[3] = (uint)sizeof(FrameParams);
   out[4] = (uint)sizeof(MipTexture);
+  out[5] = (uint)sizeof(AreaLightParams);
 }
 
 // Byte offsets of members that follow a change of alignment. One work-item.

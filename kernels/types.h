@@ -52,7 +52,27 @@ typedef struct FrameParams {
   uint list_offset;   // first entry of this launch's pixel list
   uint list_count;    // entries to shade, padding not counted
   uint plane_stride;  // entries between two planes
+  uint area_light_count;
+  uint ltc_size;     // nodes per side of the table of linearly transformed cosines
+  uint reserved[2];  // 0
 } FrameParams;
+
+#define GM_MAX_LIGHT_VERTICES 8u
+
+// A flat convex polygon that emits the same radiance in all directions, made ready for the kernels
+// by host/frame.
+typedef struct AreaLightParams {
+  float4
+      vertices[GM_MAX_LIGHT_VERTICES];  // xyz: world axes, relative to the eye, counter-clockwise
+                                        // from the front; the last is repeated; w unused
+  float4 plane;       // xyz: unit normal of the front; w: its component along that normal
+  float4 radiance;    // rgb; w unused
+  float back;         // -1: the back emits as well, 0: it is black
+  uint vertex_count;  // 3 to GM_MAX_LIGHT_VERTICES
+  float area;         // scene units squared
+  uint texture;       // index of its texture, where it has one; else NO_LIGHT_TEXTURE
+} AreaLightParams;
+#define NO_LIGHT_TEXTURE 0xFFFFFFFFu
 
 // Levels of the largest texture, 32768 texels wide.
 #define GM_MAX_MIP_LEVELS 16u

@@ -20,12 +20,13 @@ static_assert(sizeof(float2) == 8 && sizeof(float4) == 16);
 static_assert(sizeof(GlintMaterial) == 192);
 static_assert(sizeof(ConeLight) == 32);
 static_assert(sizeof(LightParams) == 48);
-static_assert(sizeof(FrameParams) == 64);
+static_assert(sizeof(FrameParams) == 80);
 static_assert(sizeof(MipTexture) == 80);
+static_assert(sizeof(AreaLightParams) == 176);
 
 /// Sizes in the order in which probe.cl's `probeTypeSizes` reports them.
-inline constexpr std::array<std::uint32_t, 5> kSharedTypeSizes = {
-    sizeof(GlintMaterial), sizeof(ConeLight), sizeof(LightParams), sizeof(FrameParams),
-    sizeof(MipTexture)};
+inline constexpr std::array<std::uint32_t, 6> kSharedTypeSizes = {
+    sizeof(GlintMaterial), sizeof(ConeLight),  sizeof(LightParams),
+    sizeof(FrameParams),   sizeof(MipTexture), sizeof(AreaLightParams)};
 
 }  // namespace glintmark

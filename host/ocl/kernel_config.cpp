@@ -5,6 +5,7 @@
 #include <array>
 
 #include "host/core/error.h"
+#include "host/core/shared_types.h"
 
 namespace glintmark {
 namespace {
@@ -30,6 +31,9 @@ void validate(const KernelConfig& config) {
   requireRange("ka", config.ka, kMaxKa);
   requireRange("lobe count", config.lobes, kMaxLobes);
   requireRange("anisotropy", config.anisotropy, kMaxAnisotropy);
+  if (config.light_vertices < 3 || config.light_vertices > static_cast<int>(GM_MAX_LIGHT_VERTICES))
+    throw Error(fmt::format("light vertex count {} is out of range; it must be 3 to {}",
+                            config.light_vertices, GM_MAX_LIGHT_VERTICES));
   if (config.method != GlintMethod::kZk16 && config.method != GlintMethod::kExact)
     throw Error(fmt::format("glint method {} is unknown; it must be 0 (zk16) or 1 (exact)",
                             static_cast<int>(config.method)));
@@ -48,11 +52,13 @@ std::string buildOptions(const KernelConfig& config) {
       config.ka, config.ggx);
   options += fmt::format(
       " -D NORMAL_MAP={:d} -D NORMAL_METHOD={} -D LOBES={} -D ANISOTROPY={} -D HALF_TEXELS={:d} "
-      "-D LTC={:d} -D LTC_METHOD={} -D CLIPLESS={:d} -D LIGHT_TEXTURE={:d} -D MULTISCATTER={} "
+      "-D LTC={:d} -D LTC_METHOD={} -D LIGHT_VERTICES={} -D CLIPLESS={:d} -D LIGHT_TEXTURE={:d} -D "
+      "MULTISCATTER={} "
       "-D METAL_COMPENSATION={:d}",
       config.normal_map, static_cast<int>(config.normal_method), config.lobes, config.anisotropy,
-      config.half_texels, config.ltc, static_cast<int>(config.ltc_method), config.clipless,
-      config.light_texture, static_cast<int>(config.multiscatter), config.metal_compensation);
+      config.half_texels, config.ltc, static_cast<int>(config.ltc_method), config.light_vertices,
+      config.clipless, config.light_texture, static_cast<int>(config.multiscatter),
+      config.metal_compensation);
   for (std::size_t i = 0; i < kPlaneCount; ++i) {
     const Plane plane = static_cast<Plane>(i);
     if (config.planes.has(plane))

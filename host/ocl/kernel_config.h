@@ -42,6 +42,7 @@ struct KernelConfig {
   bool half_texels = false;  // half-precision layout of a mixture
   bool ltc = false;          // the scene has area lights
   LtcMethod ltc_method = LtcMethod::kOriginal;
+  int light_vertices = 4;      // of the area light that has most, 3..8
   bool clipless = false;       // area lights are not clipped to the horizon
   bool light_texture = false;  // some area light is textured
   Multiscatter multiscatter = Multiscatter::kOff;

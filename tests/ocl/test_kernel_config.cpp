@@ -12,7 +12,8 @@ TEST(KernelConfig, DefaultsWriteEverySwitch) {
             "-D WIDTH=1 -D GLINT=1 -D GROOVE=0 -D GLINT_COLOUR=0 -D SIZE_VARIATION=1 "
             "-D LIGHT_CONE=0 -D DIFFUSE=0 -D COUNT_CELLS=0 -D GLINT_METHOD=0 -D KA=16 -D GGX=0 "
             "-D NORMAL_MAP=0 -D NORMAL_METHOD=0 -D LOBES=1 -D ANISOTROPY=1 -D HALF_TEXELS=0 "
-            "-D LTC=0 -D LTC_METHOD=0 -D CLIPLESS=0 -D LIGHT_TEXTURE=0 -D MULTISCATTER=0 "
+            "-D LTC=0 -D LTC_METHOD=0 -D LIGHT_VERTICES=4 -D CLIPLESS=0 -D LIGHT_TEXTURE=0 -D "
+            "MULTISCATTER=0 "
             "-D METAL_COMPENSATION=0");
 }
 
@@ -31,12 +32,14 @@ TEST(KernelConfig, EverySwitchShows) {
   config.lobes = 8;
   config.anisotropy = 16;
   config.ltc_method = LtcMethod::kExact;
+  config.light_vertices = 8;
   config.multiscatter = Multiscatter::kEon;
   EXPECT_EQ(buildOptions(config),
             "-D WIDTH=16 -D GLINT=0 -D GROOVE=1 -D GLINT_COLOUR=1 -D SIZE_VARIATION=0 "
             "-D LIGHT_CONE=1 -D DIFFUSE=1 -D COUNT_CELLS=1 -D GLINT_METHOD=1 -D KA=64 -D GGX=1 "
             "-D NORMAL_MAP=1 -D NORMAL_METHOD=5 -D LOBES=8 -D ANISOTROPY=16 -D HALF_TEXELS=1 "
-            "-D LTC=1 -D LTC_METHOD=2 -D CLIPLESS=1 -D LIGHT_TEXTURE=1 -D MULTISCATTER=3 "
+            "-D LTC=1 -D LTC_METHOD=2 -D LIGHT_VERTICES=8 -D CLIPLESS=1 -D LIGHT_TEXTURE=1 -D "
+            "MULTISCATTER=3 "
             "-D METAL_COMPENSATION=1");
 }
 
@@ -98,6 +101,13 @@ TEST(KernelConfig, RangesAreChecked) {
     config.anisotropy = anisotropy;
     EXPECT_EQ(errorOf([&] { buildOptions(config); }),
               "anisotropy " + std::to_string(anisotropy) + " is out of range; it must be 1 to 16");
+  }
+  for (int vertices : {2, 9}) {
+    KernelConfig config;
+    config.light_vertices = vertices;
+    EXPECT_EQ(
+        errorOf([&] { buildOptions(config); }),
+        "light vertex count " + std::to_string(vertices) + " is out of range; it must be 3 to 8");
   }
   for (int ka : {-5, 0, 65}) {
     KernelConfig config;
