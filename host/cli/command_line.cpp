@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "host/core/error.h"
+#include "host/report/image_io.h"
 #include "host/report/run_info.h"
 
 namespace glintmark {
@@ -75,7 +76,8 @@ Scene openScene(const CommonOptions& common, const std::string& name) {
   Scene scene = loadScene({.scene = name,
                            .overrides = common.overrides,
                            .mesh_file = common.mesh_file,
-                           .asset_folder = common.asset_folder});
+                           .asset_folder = common.asset_folder,
+                           .image_loader = readImage});
   if (!common.quiet) {
     for (const std::string& note : scene.notes) fmt::print(stderr, "note: {}\n", note);
   }

@@ -92,7 +92,7 @@ Scene loadScene(const SceneRequest& request) {
   scene.name = path.stem().string();
   scene.description = root.text("description");
   scene.cull_back_faces = root.flag("cull_back_faces", false);
-  scene.materials = readMaterials(root);
+  scene.materials = readMaterials(root, request);
   scene.views = readViews(root.tables("view"));
   if (scene.views.empty()) root.fail("view", "is missing, expected at least one [[view]]");
   scene.lights = readLights(root);

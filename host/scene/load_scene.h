@@ -19,8 +19,8 @@ struct SceneRequest {
   std::filesystem::path mesh_file;
   /// `--assets FOLDER`: searched for the file a scene lists under `mesh.asset`; empty for none.
   std::filesystem::path asset_folder;
-  /// Reads the image that `environment.image` names (at least three channels, linear rgb). A scene
-  /// that names one cannot be loaded without it.
+  /// Reads the images that `environment.image` (at least three channels, linear rgb) and a normal
+  /// map's `file` name. A scene that names one cannot be loaded without it.
   std::function<Image(const std::filesystem::path&)> image_loader{};
 };
 

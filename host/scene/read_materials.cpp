@@ -49,7 +49,7 @@ void readPalette(SceneTable& table, Material& material) {
   std::transform(colours.begin(), colours.end(), material.glint.palette, toFloat4);
 }
 
-Material readMaterial(SceneTable& table) {
+Material readMaterial(SceneTable& table, const SceneRequest& request) {
   Material material;
   material.name = table.text("name");
   readType(table, material);
@@ -65,16 +65,19 @@ Material readMaterial(SceneTable& table) {
   material.glint.f0 = toFloat4(table.vector3("f0", glm::dvec3(0.04), kReflectance));
   material.glint.albedo = toFloat4(table.vector3("albedo", glm::dvec3(0), kReflectance));
   readPalette(table, material);
+  material.normal_map = readNormalMapSource(table, request);
+  if (material.normal_map && material.has_glints)
+    table.fail("normal_map", "is given, expected it for materials of type smooth only");
   table.finish();
   return material;
 }
 
 }  // namespace
 
-std::vector<Material> readMaterials(SceneTable& root) {
+std::vector<Material> readMaterials(SceneTable& root, const SceneRequest& request) {
   std::vector<Material> materials;
   for (SceneTable& table : root.tables("material")) {
-    Material material = readMaterial(table);
+    Material material = readMaterial(table, request);
     if (material.name.empty()) table.fail("name", "is missing, expected the material's name");
     for (const Material& other : materials) {
       if (other.name == material.name) table.fail("name", "is taken by another material");

@@ -1,6 +1,7 @@
 // The readers of a scene file's sections. Each throws Error with the place in the file.
 #pragma once
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,11 @@
 namespace glintmark {
 
 /// [[material]]; at least one.
-std::vector<Material> readMaterials(SceneTable& root);
+std::vector<Material> readMaterials(SceneTable& root, const SceneRequest& request);
+
+/// [material.normal_map], if the material has one; the map is generated or loaded.
+std::optional<NormalMapSource> readNormalMapSource(SceneTable& material,
+                                                   const SceneRequest& request);
 
 /// [[light]].
 std::vector<ConeLight> readLights(SceneTable& root);

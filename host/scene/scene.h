@@ -4,12 +4,14 @@
 #pragma once
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "host/core/planes.h"
 #include "host/core/shared_types.h"
+#include "host/filter/normal_map.h"
 
 namespace glintmark {
 
@@ -51,6 +53,12 @@ struct View {
 /// ranges above.
 View orbitView(const View& base, const Orbit& orbit);
 
+/// A material's normals in finer detail than its mesh.
+struct NormalMapSource {
+  std::shared_ptr<const NormalMap> map;
+  int lobes = 4;  // Gaussians per texel where mixtures stand for the map, 1 to 8
+};
+
 /// [ZK16] Sect. 4.5, ready for the device, with what selects the effects.
 struct Material {
   std::string name;
@@ -58,6 +66,7 @@ struct Material {
   bool has_glints = true;    // false: a smooth Beckmann lobe of roughness alpha_g
   bool has_grooves = false;  // 1-D NDF, [ZK16] Eq. 6: alpha_l.x is not used
   bool has_colour = false;   // coloured microdetails
+  std::optional<NormalMapSource> normal_map{};  // of smooth materials only
 };
 
 /// An environment map already cut into cones is appended to `lights`; this remembers where from.
