@@ -26,8 +26,7 @@ kernel void shade(global const uint* planes, constant const FrameParams* frame,
 
   const ShadingFrame basis = unpackFrame(loadUint(planes, PLANE_FRAME0 * stride + entry),
                                          loadUint(planes, PLANE_FRAME1 * stride + entry));
-  const vfloat3 view =
-      viewDirection(loadUint(planes, PLANE_PIXEL * stride + entry), frame, basis);
+  const vfloat3 view = viewDirection(loadUint(planes, PLANE_PIXEL * stride + entry), frame, basis);
   const SmithLambda lambda_view = smithLambda(view, material->alpha_g);
 
 #if GLINT
@@ -66,19 +65,7 @@ kernel void shade(global const uint* planes, constant const FrameParams* frame,
       limited = limited | (cut & lit);
     }
 #endif
-    const float4 f0 = material->f0, power = light->power;
-    const float scale = material->intensity;
-    sum.x += ratio.x * fma(lobe.specular, (vfloat)(f0.x), lobe.schlick * (1.0f - f0.x)) *
-             (scale * power.x);
-    sum.y += ratio.y * fma(lobe.specular, (vfloat)(f0.y), lobe.schlick * (1.0f - f0.y)) *
-             (scale * power.y);
-    sum.z += ratio.z * fma(lobe.specular, (vfloat)(f0.z), lobe.schlick * (1.0f - f0.z)) *
-             (scale * power.z);
-#if DIFFUSE
-    sum.x = fma(lobe.cosine, (vfloat)(material->albedo.x * power.x * INV_PI), sum.x);
-    sum.y = fma(lobe.cosine, (vfloat)(material->albedo.y * power.y * INV_PI), sum.y);
-    sum.z = fma(lobe.cosine, (vfloat)(material->albedo.z * power.z * INV_PI), sum.z);
-#endif
+    addLight(lobe, ratio, material, light, &sum);
   }
   storeFloat(sum.x, radiance, entry);
   storeFloat(sum.y, radiance, stride + entry);

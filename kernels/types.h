@@ -78,7 +78,7 @@ typedef struct AreaLightParams {
 #define GM_MAX_MIP_LEVELS 16u
 
 // A mip chain in one buffer of float4, row after row and level after level. Level l has
-// max(1, width >> l) x max(1, height >> l) texels; row 0 is at v = 0. A texel is 1, 2, 4 or 8
+// max(1, width >> l) x max(1, height >> l) texels; row 0 is at v = 0. A texel is 1 to 8
 // float4.
 typedef struct MipTexture {
   uint width;   // texels of level 0, 1 to 32768

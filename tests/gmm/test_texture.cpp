@@ -89,7 +89,7 @@ TEST_P(TextureShapes, MatchTheReference) {
 INSTANTIATE_TEST_SUITE_P(Sizes, TextureShapes,
                          testing::Values(Shape{64, 64, 1}, Shape{64, 64, 4}, Shape{37, 19, 1},
                                          Shape{1, 1, 1}, Shape{1, 53, 2}, Shape{96, 1, 1},
-                                         Shape{33, 65, 8}));
+                                         Shape{33, 65, 8}, Shape{20, 30, 3}, Shape{20, 30, 6}));
 
 TEST(Texture, EveryWidthGivesTheSameBits) {
   const TestTexture texture = randomTexture(48, 31, 4, 3);

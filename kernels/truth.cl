@@ -1,0 +1,150 @@
+// Ground truth by supersampling: every sample takes a point of the pixel, the finest normal there,
+// and shades it like a smooth surface. [TAN05] traces 16 rays a pixel.
+//
+// Samples can be taken in batches; the host divides the sums by the number of all samples.
+#include "config.clh"
+#include "types.h"
+#include "wide.clh"
+
+#include "cone_light.clh"
+#include "hash.clh"
+#include "pixel.clh"
+#if NORMAL_MAP
+#include "normal_frame.clh"
+#define TEXEL_SIZE 1
+#include "texture_sum.clh"
+#endif
+
+// Steps of the R2 sequence, 2^32 over powers of the plastic number: n points fill the square evenly
+// for every n. (M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018.)
+#define STEP_X 0xC13FA9A9u
+#define STEP_Y 0x91E10DA5u
+
+// One sample of each lane's pixel.
+typedef struct {
+  vfloat px, py;       // screen position, pixel centres being whole numbers
+  vfloat sx, sy;       // the same from the pixel's centre, [-0.5, 0.5)
+  ShadingFrame frame;  // around the sample's normal, world axes
+  vfloat3 view;        // unit, towards the eye, in that frame
+  vmask visible;       // the normal does not turn from the eye
+  vuint seed;          // random bits of the sample
+} SurfaceSample;
+
+// What a batch has in common.
+typedef struct {
+  vuint pixel, seed;
+  ShadingFrame basis;  // the mesh's
+#if NORMAL_MAP
+  vuint u, v;
+  vfloat dudx, dvdx, dudy, dvdy;
+#endif
+} PixelSurface;
+
+WIDE PixelSurface loadSurface(global const uint* planes, size_t stride, size_t entry) {
+#define LOAD(plane) loadUint(planes, (plane)*stride + entry)
+  PixelSurface s;
+  s.pixel = LOAD(PLANE_PIXEL);
+  s.seed = mixCell(s.pixel * HASH_U);
+  s.basis = unpackFrame(LOAD(PLANE_FRAME0), LOAD(PLANE_FRAME1));
+#if NORMAL_MAP
+  s.u = LOAD(PLANE_U_FRAC);
+  s.v = LOAD(PLANE_V_FRAC);
+  s.dudx = boundedDerivative(bitsToFloat(LOAD(PLANE_DUDX)));
+  s.dvdx = boundedDerivative(bitsToFloat(LOAD(PLANE_DVDX)));
+  s.dudy = boundedDerivative(bitsToFloat(LOAD(PLANE_DUDY)));
+  s.dvdy = boundedDerivative(bitsToFloat(LOAD(PLANE_DVDY)));
+#endif
+#undef LOAD
+  return s;
+}
+
+WIDE SurfaceSample sampleSurface(const PixelSurface* surface, uint index,
+                                 constant const FrameParams* frame
+#if NORMAL_MAP
+                                 ,
+                                 constant const MipTexture* map, global const float4* normals
+#endif
+) {
+  SurfaceSample s;
+  const vuint x = surface->seed + index * STEP_X;
+  const vuint y = mixCell(surface->seed + HASH_V) + index * STEP_Y;
+  s.sx = toFloat(bitsToInt(x)) * 0x1p-32f;
+  s.sy = toFloat(bitsToInt(y)) * 0x1p-32f;
+  s.px = toFloat(surface->pixel & 0xFFFFu) + s.sx;
+  s.py = toFloat(surface->pixel >> 16) + s.sy;
+  s.seed = mixCell(surface->seed + index * HASH_MIX_3);
+#if NORMAL_MAP
+  const vuint u = surface->u + uvFraction(fma(surface->dudx, s.sx, surface->dudy * s.sy));
+  const vuint v = surface->v + uvFraction(fma(surface->dvdx, s.sx, surface->dvdy * s.sy));
+  const ProbeLine probe = singleProbe(map, u, v, (vfloat)(0.0f));
+  vfloat4 mean;
+  fetchTexels1(map, normals, &probe, TEXTURE_REPEAT, &mean);
+  const vfloat3 bent = {mean.x, mean.y, mean.z};
+  s.frame = turnFrame(surface->basis, scale3(bent, wideRsqrt(dot3(bent, bent))));
+#else
+  s.frame = surface->basis;
+#endif
+  const vfloat3 ray = pixelRay(s.px, s.py, frame);
+  s.view = toLocal(s.frame, scale3(ray, -wideRsqrt(dot3(ray, ray))));
+  s.visible = s.view.z > 0.0f;
+  s.view.z = max(s.view.z, (vfloat)(1e-4f));
+  return s;
+}
+
+WIDE vfloat3 shadeSample(const SurfaceSample* sample, constant const FrameParams* frame,
+                         constant const GlintMaterial* material, constant const LightParams* lights,
+                         constant const float4* taps) {
+  const vfloat3 ratio = {(vfloat)(1.0f), (vfloat)(1.0f), (vfloat)(1.0f)};
+  const SmithLambda lambda_view = smithLambda(sample->view, material->alpha_g);
+  vfloat3 sum = {(vfloat)(0.0f), (vfloat)(0.0f), (vfloat)(0.0f)};
+  for (uint i = 0; i < frame->light_count; ++i) {
+    LightLobe lobe =
+        evaluateLight(sample->frame, sample->view, lambda_view, material, &lights[i], taps);
+    lobe.specular = sample->visible ? lobe.specular : (vfloat)(0.0f);
+    lobe.schlick = sample->visible ? lobe.schlick : (vfloat)(0.0f);
+    addLight(lobe, ratio, material, &lights[i], &sum);
+  }
+  return sum;
+}
+
+WIDE void addToPlane(vfloat value, global float* sums, size_t i) {
+  storeFloat(bitsToFloat(loadUint((global const uint*)sums, i)) + value, sums, i);
+}
+
+// Adds `sample_count` samples from number `sample_begin` on to `sums`: six planes of
+// frame->plane_stride entries, radiance (r, g, b) and its squares.
+kernel void truth(global const uint* planes, constant const FrameParams* frame,
+                  constant const GlintMaterial* material, constant const LightParams* lights,
+                  constant const float4* taps,
+#if NORMAL_MAP
+                  constant const MipTexture* map, global const float4* normals,
+#endif
+                  global float* sums, uint sample_begin, uint sample_count) {
+  const size_t first = get_global_id(0) * WIDTH;
+  if (first >= frame->list_count) return;
+  const size_t entry = frame->list_offset + first, stride = frame->plane_stride;
+  const PixelSurface surface = loadSurface(planes, stride, entry);
+  vfloat3 sum = {(vfloat)(0.0f), (vfloat)(0.0f), (vfloat)(0.0f)};
+  vfloat3 squares = sum;
+  for (uint i = 0; i < sample_count; ++i) {
+    const SurfaceSample sample = sampleSurface(&surface, sample_begin + i, frame
+#if NORMAL_MAP
+                                               ,
+                                               map, normals
+#endif
+    );
+    const vfloat3 value = shadeSample(&sample, frame, material, lights, taps);
+    sum.x += value.x;
+    sum.y += value.y;
+    sum.z += value.z;
+    squares.x = fma(value.x, value.x, squares.x);
+    squares.y = fma(value.y, value.y, squares.y);
+    squares.z = fma(value.z, value.z, squares.z);
+  }
+  addToPlane(sum.x, sums, entry);
+  addToPlane(sum.y, sums, stride + entry);
+  addToPlane(sum.z, sums, 2 * stride + entry);
+  addToPlane(squares.x, sums, 3 * stride + entry);
+  addToPlane(squares.y, sums, 4 * stride + entry);
+  addToPlane(squares.z, sums, 5 * stride + entry);
+}
