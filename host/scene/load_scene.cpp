@@ -96,12 +96,14 @@ Scene loadScene(const SceneRequest& request) {
   scene.views = readViews(root.tables("view"));
   if (scene.views.empty()) root.fail("view", "is missing, expected at least one [[view]]");
   scene.lights = readLights(root);
+  scene.area_lights = readAreaLights(root, request);
   readPost(root, scene.post);
   const MeshPlan plan = readMesh(root, request, scene.materials);
   scene.environment = readEnvironment(root, request, scene.lights);
   root.finish();
-  if (scene.lights.empty()) {
-    root.fail("light", "is missing, expected at least one [[light]] or an [environment]");
+  if (scene.lights.empty() && scene.area_lights.empty()) {
+    root.fail("light",
+              "is missing, expected at least one [[light]], [[area_light]] or [environment]");
   }
 
   buildMesh(plan, scene);

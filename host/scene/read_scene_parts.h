@@ -21,6 +21,9 @@ std::optional<NormalMapSource> readNormalMapSource(SceneTable& material,
 /// [[light]].
 std::vector<ConeLight> readLights(SceneTable& root);
 
+/// [[area_light]].
+std::vector<AreaLight> readAreaLights(SceneTable& root, const SceneRequest& request);
+
 /// [environment], appended to `lights` as cones.
 EnvironmentInfo readEnvironment(SceneTable& root, const SceneRequest& request,
                                 std::vector<ConeLight>& lights);

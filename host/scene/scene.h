@@ -11,6 +11,7 @@
 
 #include "host/core/planes.h"
 #include "host/core/shared_types.h"
+#include "host/scene/area_light.h"
 #include "host/filter/normal_map.h"
 
 namespace glintmark {
@@ -87,6 +88,7 @@ struct Scene {
   TriangleMesh mesh;
   std::vector<Material> materials;
   std::vector<ConeLight> lights;  // sun lights first, then the environment's cones
+  std::vector<AreaLight> area_lights;
   EnvironmentInfo environment;
   std::vector<View> views;
   PostEffects post;
