@@ -7,16 +7,22 @@
 //   y = sqrt(1 - cos theta) (size - 1)    theta: angle between the view and the normal
 // and every cell is LTC_CELL_FLOATS floats.
 //
-// The inverse matrix stands in the frame in which the view is (sin theta, 0, cos theta), the normal
-// is z, and the reflected lobe therefore lies towards -x:
-//             | XX  0  XZ       |
-//   M^-1  =   | 0   1  0        |
-//             | alpha ZX 0 alpha ZZ |
-// A factor common to all entries cancels in [HDHN16] Eq. 1, so the middle entry is made 1. What
-// remains stays finite and smooth where alpha -> 0: XX is the ratio of the lobe's widths, and the
-// last row, which vanishes with alpha, is stored divided by it. The reader multiplies by its own
-// alpha, which is exact, so a table interpolates between alpha = 0 and its second column as well as
-// anywhere else.
+// The inverse matrix is stored for the frame of the mirrored view: with the view at
+// (sin theta, 0, cos theta) and the normal along z, that frame is turned about y such that its z
+// lies along (-sin theta, 0, cos theta). In it
+//              | XX        0  XZ       |
+//   M_m^-1  =  | 0         1  0        |
+//              | alpha ZX  0  alpha ZZ |
+// and for directions in the frame of the normal M^-1 = M_m^-1 Q:
+//            | cos theta   0  sin theta |
+//   Q     =  | 0           1  0         |
+//            | -sin theta  0  cos theta |
+//
+// Why so: a factor common to all entries cancels in [HDHN16] Eq. 1, so the middle entry is made 1.
+// What remains stays finite and smooth where alpha -> 0: XX is the ratio of the lobe's widths, and
+// the last row, which vanishes with alpha, is stored divided by it. The reader multiplies by its
+// own alpha and turns by its own theta, both exact, so narrow lobes stay as narrow and where they
+// belong between nodes. Interpolating M^-1 as such would move them by many times their width.
 #ifndef GLINTMARK_LTC_TABLE_H
 #define GLINTMARK_LTC_TABLE_H
 
@@ -44,6 +50,10 @@
 // Continuous coordinate of a cell along x or y. `root` is sqrt(alpha) or sqrt(1 - cos theta),
 // clamped to [0, 1] by the caller; `size` is the table's, as a float.
 #define LTC_COORDINATE(root, size) ((root) * ((size)-1.0f))
+
+// Columns x and z of row (X, Z) of M_m^-1 Q, from the stored row and the view's sine and cosine.
+#define LTC_TURNED_X(x, z, sine, cosine) ((x) * (cosine) - (z) * (sine))
+#define LTC_TURNED_Z(x, z, sine, cosine) ((x) * (sine) + (z) * (cosine))
 
 // First float of the cell in column x (roughness) and row y (view angle), 0 <= x, y < size.
 #define LTC_CELL(x, y, size) (((y) * (size) + (x)) * LTC_CELL_FLOATS)
