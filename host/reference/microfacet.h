@@ -1,0 +1,31 @@
+// Isotropic microfacet BRDFs in double precision: GGX and Beckmann with height-correlated Smith
+// masking and shadowing, G2 = 1 / (1 + Lambda(i) + Lambda(o)). [Heitz14] Eq. 99
+//
+// Directions are unit vectors in the tangent frame (z: normal). The fit of linearly transformed
+// cosines and the Monte Carlo ground truth use this same BRDF.
+// [Walter07] "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007. [Heitz14]
+// "Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs", JCGT 3(2).
+#pragma once
+#include <glm/glm.hpp>
+
+#include <string>
+
+namespace glintmark::reference {
+
+enum class Ndf { kGgx, kBeckmann };
+
+/// "ggx" or "beckmann".
+std::string ndfName(Ndf ndf);
+
+/// D(m), normalised such that the integral of D(m) m.z over directions is 1; 0 below the horizon.
+/// alpha > 0. [Walter07] Eq. 25 and 33
+double microfacetDensity(Ndf ndf, const glm::dvec3& m, double alpha);
+
+/// Smith's Lambda of a direction w with w.z > 0. [Heitz14] Eq. 72 (GGX) and 61 (Beckmann)
+double microfacetLambda(Ndf ndf, const glm::dvec3& w, double alpha);
+
+/// BRDF times i.z at a Fresnel term of 1: D(m) G2(i, o) / (4 o.z); 0 where i or o is not above the
+/// surface. Its limit for a grazing view, o.z = 0, is finite and is what this returns there.
+double microfacetTimesCosine(Ndf ndf, const glm::dvec3& i, const glm::dvec3& o, double alpha);
+
+}  // namespace glintmark::reference
