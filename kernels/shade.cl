@@ -3,6 +3,9 @@
 #include "types.h"
 #include "wide.clh"
 
+#if LTC
+#include "area_surface.clh"
+#endif
 #include "cone_light.clh"
 #include "pixel.clh"
 #if GLINT
@@ -13,7 +16,17 @@
 // planes (r, g, b) of the same stride. cells: visited cells | 2^31 where a limit cut the walk.
 kernel void shade(global const uint* planes, constant const FrameParams* frame,
                   constant const GlintMaterial* material, constant const LightParams* lights,
-                  constant const float4* taps, global float* radiance
+                  constant const float4* taps,
+#if NORMAL_MAP
+                  constant const MipTexture* map, global const float4* map_texels,
+#endif
+#if LTC
+                  constant const AreaLightParams* area_lights, global const float* ltc_table,
+#if LIGHT_TEXTURE
+                  constant const MipTexture* pictures, global const float4* picture_texels,
+#endif
+#endif
+                  global float* radiance
 #if COUNT_CELLS
                   ,
                   global uint* cell_counts
@@ -67,6 +80,16 @@ kernel void shade(global const uint* planes, constant const FrameParams* frame,
 #endif
     addLight(lobe, ratio, material, light, &sum);
   }
+#if LTC
+  const LitPoint point = loadLitPoint(planes, stride, entry, frame, material, basis
+#if NORMAL_MAP
+                                      ,
+                                      map, map_texels
+#endif
+  );
+  sum = add3(sum, shadeAreaLights(point, material, area_lights, frame->area_light_count, ltc_table,
+                                  frame->ltc_size));
+#endif
   storeFloat(sum.x, radiance, entry);
   storeFloat(sum.y, radiance, stride + entry);
   storeFloat(sum.z, radiance, 2 * stride + entry);
