@@ -105,8 +105,8 @@ void expectBlockLobes(MixtureBlock& block, const BlockNormals& normals) {
                       [&](const float* values) HWY_ATTR { return hn::Load(d, values + lane); });
     for (std::size_t j = 0; j < normals.count; ++j) {
       const std::size_t at = j * kBlockTexels + lane;
-      step.template add<kLikelihood>(hn::Load(d, normals.x + at), hn::Load(d, normals.y + at),
-                                     hn::Load(d, normals.weight + at));
+      step.template add<kLikelihood>(hn::LoadU(d, normals.x + at), hn::LoadU(d, normals.y + at),
+                                     hn::LoadU(d, normals.weight + at));
     }
     for (int i = 0; i < kLobes; ++i) {
       hn::Store(step.sum[i], d, block.sum[i] + lane);
