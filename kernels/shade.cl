@@ -88,7 +88,7 @@ kernel void shade(global const uint* planes, constant const FrameParams* frame,
 #endif
   );
   sum = add3(sum, shadeAreaLights(point, material, area_lights, frame->area_light_count, ltc_table,
-                                  frame->ltc_size));
+                                  frame->ltc_size PICTURE_ARGUMENTS));
 #endif
   storeFloat(sum.x, radiance, entry);
   storeFloat(sum.y, radiance, stride + entry);

@@ -6,6 +6,9 @@
 #include "types.h"
 #include "wide.clh"
 
+#if LTC
+#include "area_light_truth.clh"
+#endif
 #include "cone_light.clh"
 #include "hash.clh"
 #include "pixel.clh"
@@ -107,6 +110,20 @@ WIDE vfloat3 shadeSample(const SurfaceSample* sample, constant const FrameParams
   return sum;
 }
 
+#if LTC
+// Where a sample lies, relative to the eye: its ray meets the tangent plane of the pixel's centre,
+// at most twice as near or as far as the centre lies.
+WIDE vfloat3 samplePlace(const PixelSurface* surface, const SurfaceSample* sample, vfloat depth,
+                         constant const FrameParams* frame) {
+  const vfloat3 centre =
+      pixelRay(toFloat(surface->pixel & 0xFFFFu), toFloat(surface->pixel >> 16), frame);
+  const vfloat3 ray = pixelRay(sample->px, sample->py, frame);
+  const vfloat along = dot3(ray, surface->basis.normal);
+  const vfloat ratio = along != 0.0f ? dot3(centre, surface->basis.normal) / along : (vfloat)(1.0f);
+  return scale3(ray, depth * clamp(ratio, (vfloat)(0.5f), (vfloat)(2.0f)));
+}
+#endif
+
 WIDE void addToPlane(vfloat value, global float* sums, size_t i) {
   storeFloat(bitsToFloat(loadUint((global const uint*)sums, i)) + value, sums, i);
 }
@@ -119,6 +136,12 @@ kernel void truth(global const uint* planes, constant const FrameParams* frame,
 #if NORMAL_MAP
                   constant const MipTexture* map, global const float4* normals,
 #endif
+#if LTC
+                  constant const AreaLightParams* area_lights, global const float* ltc_table,
+#if LIGHT_TEXTURE
+                  constant const MipTexture* pictures, global const float4* picture_texels,
+#endif
+#endif
                   global float* sums, uint sample_begin, uint sample_count) {
   const size_t first = get_global_id(0) * WIDTH;
   if (first >= frame->list_count) return;
@@ -126,6 +149,9 @@ kernel void truth(global const uint* planes, constant const FrameParams* frame,
   const PixelSurface surface = loadSurface(planes, stride, entry);
   vfloat3 sum = {(vfloat)(0.0f), (vfloat)(0.0f), (vfloat)(0.0f)};
   vfloat3 squares = sum;
+#if LTC
+  const vfloat depth = bitsToFloat(loadUint(planes, PLANE_DEPTH * stride + entry));
+#endif
   for (uint i = 0; i < sample_count; ++i) {
     const SurfaceSample sample = sampleSurface(&surface, sample_begin + i, frame
 #if NORMAL_MAP
@@ -133,7 +159,13 @@ kernel void truth(global const uint* planes, constant const FrameParams* frame,
                                                map, normals
 #endif
     );
-    const vfloat3 value = shadeSample(&sample, frame, material, lights, taps);
+    vfloat3 value = shadeSample(&sample, frame, material, lights, taps);
+#if LTC
+    const vfloat3 place = samplePlace(&surface, &sample, depth, frame);
+    value = add3(value, sampleAreaLights(sample.frame, place, sample.view, sample.visible, material,
+                                         sample.seed, area_lights,
+                                         frame->area_light_count PICTURE_ARGUMENTS));
+#endif
     sum.x += value.x;
     sum.y += value.y;
     sum.z += value.z;
