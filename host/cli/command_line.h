@@ -39,6 +39,7 @@ void addRenderCommand(CLI::App& app, CommandLine& line);
 void addHeatmapCommand(CLI::App& app, CommandLine& line);
 void addBenchCommand(CLI::App& app, CommandLine& line);
 void addFitCommand(CLI::App& app, CommandLine& line);
+void addCompareCommand(CLI::App& app, CommandLine& line);
 
 struct ImageSize {
   int width_px = 1920, height_px = 1080;

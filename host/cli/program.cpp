@@ -115,6 +115,7 @@ int runProgram(int argc, const char* const* argv) {
   addHeatmapCommand(app, line);
   addBenchCommand(app, line);
   addFitCommand(app, line);
+  addCompareCommand(app, line);
   for (CLI::App* command : app.get_subcommands(nullptr)) command->fallthrough();
 
   try {
