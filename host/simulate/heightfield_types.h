@@ -1,0 +1,11 @@
+// The host's side of kernels/heightfield.h.
+#pragma once
+#include "host/core/shared_types.h"
+
+namespace glintmark {
+
+#include "kernels/heightfield.h"
+
+static_assert(sizeof(HeightfieldRun) == 48);
+
+}  // namespace glintmark

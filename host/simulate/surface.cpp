@@ -1,0 +1,107 @@
+#include "host/simulate/surface.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "host/simulate/heightfield_types.h"
+#include "host/simulate/surface_spectrum.h"
+
+namespace glintmark {
+namespace {
+
+constexpr std::size_t kLocalSize = 16;
+// Counts reach this many standard deviations; a tile has about 7000 independent heights.
+constexpr double kMostDeviations = 6;
+
+Buffer upload(Device& device, const std::vector<float>& values, const char* what) {
+  Buffer buffer(device, values.size() * sizeof(float), what);
+  buffer.write(values.data(), values.size() * sizeof(float));
+  return buffer;
+}
+
+// A function of 2 pi i x / HF_TILE for every wave number i and texel x.
+std::vector<float> waveTable(double (*function)(double)) {
+  std::vector<float> table(std::size_t{HF_MODES} * HF_TILE);
+  for (std::size_t i = 0; i < HF_MODES; ++i)
+    for (std::size_t x = 0; x < HF_TILE; ++x)
+      table[i * HF_TILE + x] = static_cast<float>(
+          function(2 * std::numbers::pi * static_cast<double>(i * x % HF_TILE) / HF_TILE));
+  return table;
+}
+
+}  // namespace
+
+SurfaceMaker::SurfaceMaker(Device& device, ProgramCache& cache, double correlation_texels) {
+  const SurfaceSpectrum spectrum = makeSurfaceSpectrum(correlation_texels);
+  count_height_ =
+      static_cast<float>(spectrum.height_deviation * kMostDeviations / HF_MOST_COUNTS);
+  const Program program = cache.getWithOptions("height_surface.cl", "");
+  draw_modes_ = program.kernel("drawModes");
+  sum_columns_ = program.kernel("sumColumns");
+  sum_rows_ = program.kernel("sumRows");
+  pack_heights_ = program.kernel("packHeights");
+  block_tops_ = program.kernel("blockTops");
+  block_cones_ = program.kernel("blockCones");
+  amplitudes_ = upload(device, spectrum.amplitudes, "the surface's amplitudes");
+  cosines_ = upload(device, waveTable(std::cos), "the surface's waves");
+  sines_ = upload(device, waveTable(std::sin), "the surface's waves");
+  const auto words = [&](std::size_t count, const char* what) {
+    return Buffer(device, count * 4, what);
+  };
+  modes_ = words(std::size_t{2} * HF_MODES * HF_MODE_ROWS, "the surface's modes");
+  columns_ = words(std::size_t{2} * HF_MODES * HF_TILE, "the surface's columns");
+  counts_ = words(std::size_t{HF_TILE} * HF_TILE, "the surface's heights");
+  heights_ = words(HF_HEIGHT_WORDS, "the surface's packed heights");
+  tops_ = words(std::size_t{2} * HF_CONE_WORDS, "the surface's block tops");
+  cones_ = words(std::size_t{2} * HF_CONE_WORDS, "the surface's cones");
+}
+
+double SurfaceMaker::draw(std::uint32_t seed) {
+  double ns = 0;
+  const auto launch = [&](Kernel& kernel, std::vector<KernelArg> args, std::size_t items) {
+    ns += kernel.launch(args, items, kLocalSize).wall_ns;
+  };
+  launch(draw_modes_, {amplitudes_, modes_, seed}, std::size_t{HF_MODES} * HF_MODE_ROWS);
+  launch(sum_columns_, {modes_, cosines_, sines_, columns_}, std::size_t{HF_MODES} * HF_TILE / 16);
+  launch(sum_rows_, {columns_, cosines_, sines_, counts_, count_height_},
+         std::size_t{HF_TILE} * HF_TILE / 16);
+  launch(pack_heights_, {counts_, heights_}, HF_HEIGHT_WORDS);
+  launch(block_tops_, {counts_, tops_}, HF_CONE_WORDS);
+  launch(block_cones_, {tops_, cones_}, std::size_t{2} * HF_CONE_WORDS);
+  return ns;
+}
+
+std::vector<std::int32_t> SurfaceMaker::readCounts() const {
+  std::vector<std::int32_t> counts(std::size_t{HF_TILE} * HF_TILE);
+  counts_.read(counts.data(), counts.size() * 4);
+  return counts;
+}
+
+SlopeMoments slopeMoments(const std::vector<std::int32_t>& counts, double count_height) {
+  const auto height = [&](std::size_t x, std::size_t y) {
+    return count_height * counts[y % HF_TILE * HF_TILE + x % HF_TILE];
+  };
+  SlopeMoments m;
+  double fourth = 0;
+  const auto add = [&](double sx, double sy) {
+    m.variance_x += sx * sx;
+    m.variance_y += sy * sy;
+    m.covariance += sx * sy;
+    fourth += sx * sx * sx * sx;
+  };
+  for (std::size_t y = 0; y < HF_TILE; ++y)
+    for (std::size_t x = 0; x < HF_TILE; ++x) {
+      const double h00 = height(x, y), h10 = height(x + 1, y);
+      const double h01 = height(x, y + 1), h11 = height(x + 1, y + 1);
+      add(h10 - h00, h11 - h10);
+      add(h11 - h01, h01 - h00);
+    }
+  const double facets = 2.0 * HF_TILE * HF_TILE;
+  m.variance_x /= facets;
+  m.variance_y /= facets;
+  m.covariance /= facets;
+  m.kurtosis_x = fourth / facets / (m.variance_x * m.variance_x);
+  return m;
+}
+
+}  // namespace glintmark

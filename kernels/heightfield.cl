@@ -1,0 +1,278 @@
+// Brute-force scattering: rays fly at a rough surface, bounce, and are counted where they leave.
+// [PAT18] "Using Brute Force Ray-Casting"
+//
+// A lane takes one ray after another. Rays that meet a face or leave wait until SOME_WAIT of their
+// neighbours do, so that the long branches serve many lanes at once. Every ray has random numbers
+// and an outcome of its own: results depend on neither lanes nor scheduling.
+#include "config.clh"
+
+// What the microfacets are: 0 diffuse, 1 metal, 2 dielectric.
+#ifndef SURFACE_KIND
+#define SURFACE_KIND 0
+#endif
+#if SURFACE_KIND != 0 && SURFACE_KIND != 1 && SURFACE_KIND != 2
+#error "SURFACE_KIND must be 0 (diffuse), 1 (metal) or 2 (dielectric)"
+#endif
+#define REFRACTION (SURFACE_KIND == 2)
+
+// 1: rays leave after the last bounce whether or not the surface is in their way.
+#ifndef LAST_BOUNCE_LEAVES
+#define LAST_BOUNCE_LEAVES 0
+#endif
+#if LAST_BOUNCE_LEAVES != 0 && LAST_BOUNCE_LEAVES != 1
+#error "LAST_BOUNCE_LEAVES must be 0 or 1"
+#endif
+
+#include "height_bounce.clh"
+#include "height_walk.clh"
+
+// Waiting rays that end a round of flying.
+#if WIDTH == 1
+#define SOME_WAIT 1
+#elif !defined(SOME_WAIT)
+#define SOME_WAIT (WIDTH * 5 / 16)
+#endif
+
+// Groups of lanes that fly in turn: while one waits for memory another computes.
+#ifndef GROUPS
+#define GROUPS (WIDTH == 1 ? 1 : 2)
+#endif
+
+// One ray per lane.
+typedef struct {
+  Ray ray;
+  vint side;     // +1 above the surface, -1 below
+  vint order;    // bounces so far
+  vint steps;    // cells of this flight
+  vuint random;  // the ray's sequence
+  vuint id;      // the ray's number in this launch
+  vint left;     // rays that the lane has still to start
+  vmask flying, met, out;  // at most one is true; none: the lane has no ray
+  vmask second;            // of a ray that met a face: it is its cell's second triangle
+} Flight;
+
+// Direction in real space, unit.
+WIDE vfloat3 realDirection(const Flight* f, constant const HeightfieldRun* run) {
+  vfloat3 d = {f->ray.dx / run->alpha.x, f->ray.dy / run->alpha.y, f->ray.dz * run->count_height};
+#if REFRACTION
+  d.z *= toFloat(f->side);
+#endif
+  return normalize3(d);
+}
+
+// Sets the direction of the lanes of `which` from real space.
+WIDE void setDirection(Flight* f, vfloat3 d, constant const HeightfieldRun* run, vmask which) {
+  Ray* r = &f->ray;
+  vfloat dz = d.z * (1.0f / run->count_height);
+#if REFRACTION
+  dz *= toFloat(f->side);
+#endif
+  r->dx = which ? d.x * run->alpha.x : r->dx;
+  r->dy = which ? d.y * run->alpha.y : r->dy;
+  r->dz = which ? dz : r->dz;
+  prepareFlight(r);
+}
+
+// Writes how the rays of `which` end. The outcomes behind the last ray's are nobody's.
+WIDE void finish(const Flight* f, global uint* outcomes, uint ray_count, vint word, vmask which) {
+  scatterUint(bitsToUint(word), outcomes,
+              which ? bitsToInt(f->id) : bitsToInt(laneNumbers() + ray_count));
+}
+
+// The histogram's word of rays that leave.
+WIDE vint leavingWord(const Flight* f, constant const HeightfieldRun* run) {
+  const vfloat3 d = realDirection(f, run);
+  const vint cosine = toInt((1.0f - fabs(d.z)) * (float)HF_COSINES);
+  const vint azimuth = toInt(angleTurns(d.x, d.y) * (float)HF_AZIMUTHS);
+  vint block = f->order - 1;
+#if REFRACTION
+  block += f->side < 0 ? (vint)((int)HF_MAX_ORDERS) : (vint)(0);
+#endif
+  return (block * (int)HF_COSINES + clamp(cosine, (vint)(0), (vint)((int)HF_COSINES - 1))) *
+             (int)HF_AZIMUTHS +
+         min(azimuth, (vint)((int)HF_AZIMUTHS - 1));
+}
+
+// Starts the next ray of the lanes of `which` that have one left.
+WIDE void startRays(Flight* f, global const uint* cones, constant const HeightfieldRun* run,
+                    uint seed, vmask which) {
+  Ray* r = &f->ray;
+  const vmask starting = which & (f->left > 0);
+  f->left -= starting ? (vint)(1) : (vint)(0);
+  f->id += starting ? (vuint)((uint)(WIDTH * GROUPS)) : (vuint)(0u);
+  vuint random = (f->id * 0x9E3779B1u) ^ seed;
+  random = (random ^ (random >> 16)) * HASH_MIX_2;
+  random = (random ^ (random >> 15)) * HASH_MIX_3;
+  random ^= random >> 16;
+  const vfloat x = nextRandom(&random) * (float)HF_TILE, y = nextRandom(&random) * (float)HF_TILE;
+  const vint cell_x = toInt(x), cell_y = toInt(y);
+  f->random = starting ? random : f->random;
+  r->x = starting ? cell_x : r->x;
+  r->y = starting ? cell_y : r->y;
+  r->u = starting ? x - toFloat(cell_x) : r->u;
+  r->v = starting ? y - toFloat(cell_y) : r->v;
+  r->z = starting ? (vfloat)((float)HF_MOST_COUNTS) : r->z;
+  f->side = starting ? (vint)(1) : f->side;
+  f->order = starting ? (vint)(0) : f->order;
+  f->steps = starting ? (vint)(0) : f->steps;
+  setDirection(f, broadcast3(run->incoming), run, starting);
+  jumpAhead(cones, r, f->side, starting);
+  f->flying = f->flying | starting;
+}
+
+// One cell and one jump of the flying lanes.
+WIDE void fly(Flight* f, global const uint* heights, global const uint* cones) {
+  const CellFaces faces = cellFaces(heights, &f->ray, f->side);
+  const CellCrossing crossing = crossCell(&f->ray);
+  const vmask first = meetsFirst(&f->ray, &faces, &crossing) & f->flying;
+  const vmask second = meetsSecond(&f->ray, &faces, &crossing) & f->flying & !first;
+  f->met = f->met | first | second;
+  f->second = (f->second & !first) | second;
+  f->flying = f->flying & !(first | second);
+  enterNextCell(&f->ray, &crossing, f->flying);
+  const vmask out = jumpAhead(cones, &f->ray, f->side, f->flying);
+  f->out = f->out | out;
+  f->flying = f->flying & !out;
+  f->steps += 1;
+}
+
+// Flight of the lanes of `which` up to the face that they met; returns its normal, unit, on their
+// side.
+WIDE vfloat3 land(Flight* f, global const uint* heights, constant const HeightfieldRun* run,
+                  vmask which) {
+  Ray* r = &f->ray;
+  const CellFaces faces = cellFaces(heights, r, f->side);
+  const CellCrossing crossing = crossCell(r);
+  const vfloat slope_u = f->second ? faces.second_u : faces.first_u;
+  const vfloat slope_v = f->second ? faces.second_v : faces.first_v;
+  const vfloat begin = f->second ? crossing.first_end : (vfloat)(0.0f);
+  const vfloat end = f->second ? crossing.end : crossing.first_end;
+  const vfloat rate = min(clearanceRate(r, slope_u, slope_v), (vfloat)(-1e-30f));
+  const vfloat flight =
+      clamp(clearance(r, faces.height, slope_u, slope_v) * wideReciprocal(-rate), begin, end);
+  const vfloat u = clamp(fma(flight, r->dx, r->u), (vfloat)(0.0f), (vfloat)(1.0f));
+  const vfloat v = clamp(fma(flight, r->dy, r->v), (vfloat)(0.0f), (vfloat)(1.0f));
+  r->u = which ? u : r->u;
+  r->v = which ? v : r->v;
+  r->z = which ? fma(slope_u, u, fma(slope_v, v, faces.height)) : r->z;
+  const vfloat3 n = {slope_u * (-run->count_height * run->alpha.x),
+                     slope_v * (-run->count_height * run->alpha.y), toFloat(f->side)};
+  return normalize3(n);
+}
+
+// Bounces the lanes of `which` off the face that they met, or into it. Returns the lanes whose rays
+// end here and their histogram words.
+WIDE vmask bounce(Flight* f, global const uint* heights, constant const HeightfieldRun* run,
+                  vmask which, vint* word) {
+  const vfloat3 n = land(f, heights, run, which);
+  vuint random = f->random;
+  vmask ended = (vint)(0);
+#if SURFACE_KIND == 0
+  const vfloat3 after = scatterDiffuse(n, &random);
+#elif SURFACE_KIND == 1
+  const vfloat3 before = realDirection(f, run);
+  const vfloat3 after = mirror(before, n);
+  const vfloat cosine = clamp(-dot3(before, n), (vfloat)(0.0f), (vfloat)(1.0f));
+  const vfloat reflectance = fresnelMetal(cosine, run->index_n, run->index_k);
+  ended = which & (nextRandom(&random) >= reflectance);
+  *word = (int)HF_ABSORBED + f->order;
+#else
+  const vfloat3 before = realDirection(f, run);
+  const vfloat ratio = f->side > 0 ? (vfloat)(run->index_n) : (vfloat)(1.0f / run->index_n);
+  vmask refracted;
+  const vfloat3 after = scatterDielectric(before, n, ratio, &random, &refracted);
+  refracted = refracted & which;
+  f->side = refracted ? -f->side : f->side;
+  f->ray.z = refracted ? -f->ray.z : f->ray.z;
+#endif
+  f->random = which ? random : f->random;
+  setDirection(f, after, run, which);
+  f->order += which ? (vint)(1) : (vint)(0);
+  f->steps = which ? (vint)(0) : f->steps;
+  f->met = f->met & !which;
+  f->flying = f->flying | (which & !ended);
+#if LAST_BOUNCE_LEAVES
+  const vmask last = f->flying & which & (f->order >= (int)run->orders);
+  const vmask back = last & (f->ray.dz <= 0.0f);
+  *word = back ? (vint)((int)HF_LEFT_OVER) : *word;
+  ended = ended | back;
+  f->out = f->out | (last & !back);
+  f->flying = f->flying & !last;
+#endif
+  return ended;
+}
+
+// Serves the lanes that wait: new directions, outcomes, new rays.
+WIDE void serve(Flight* f, global const uint* heights, global const uint* cones,
+                constant const HeightfieldRun* run, uint seed, uint ray_count,
+                global uint* outcomes) {
+  vint word = (vint)((int)HF_GAVE_UP);
+  vmask ended = f->flying & (f->steps > HF_MOST_STEPS);
+  const vmask spent = f->met & (f->order >= (int)run->orders);
+  word = spent ? (vint)((int)HF_LEFT_OVER) : word;
+  ended = ended | spent;
+  f->flying = f->flying & !ended;
+  f->met = f->met & !ended;
+  if (anyLane(f->met)) {
+    vint end_word = (vint)(0);
+    const vmask here = bounce(f, heights, run, f->met, &end_word);
+    word = here ? end_word : word;
+    ended = ended | here;
+  }
+  word = f->out ? leavingWord(f, run) : word;
+  ended = ended | f->out;
+  f->out = (vint)(0);
+  if (anyLane(ended)) {
+    finish(f, outcomes, ray_count, word, ended);
+    startRays(f, cones, run, seed, ended);
+  }
+}
+
+// A lane's first ray has number `first` + its number; the next ones follow in steps of all lanes.
+WIDE Flight makeFlight(constant const HeightfieldRun* run, uint first, uint ray_count) {
+  Flight f;
+  const vint none = (vint)(0);
+  const vuint id = laneNumbers() + first;
+  f.left = id < ray_count ? bitsToInt((ray_count - 1u - id) / (uint)(WIDTH * GROUPS)) + 1 : none;
+  f.left = min(f.left, (vint)((int)run->rays_per_lane));
+  f.id = id - (uint)(WIDTH * GROUPS);
+  f.flying = f.met = f.out = f.second = f.order = f.steps = f.side = none;
+  f.random = (vuint)(0u);
+  f.ray.x = f.ray.y = none;
+  f.ray.u = f.ray.v = f.ray.z = f.ray.dx = f.ray.dy = f.ray.dz = (vfloat)(0.0f);
+  return f;
+}
+
+// One work-item flies WIDTH * GROUPS * run->rays_per_lane rays, as far as there are `ray_count` in
+// all. `seed`: of this launch. outcomes: for every ray the histogram word that it adds one to, then
+// WIDTH unused ones.
+kernel void traceRays(global const uint* heights, global const uint* cones,
+                      constant const HeightfieldRun* run, uint seed, uint ray_count,
+                      global uint* outcomes) {
+  const uint item_rays = (uint)(WIDTH * GROUPS) * run->rays_per_lane;
+  Flight flights[GROUPS];
+  for (uint g = 0; g < GROUPS; ++g) {
+    const uint first = (uint)get_global_id(0) * item_rays + g * (uint)WIDTH;
+    flights[g] = makeFlight(run, first, ray_count);
+    startRays(&flights[g], cones, run, seed, flights[g].left > 0);
+  }
+  int busy = 1;
+  while (busy) {
+    int stop, flying;
+    do {
+      stop = flying = 0;
+      for (uint g = 0; g < GROUPS; ++g) {
+        Flight* f = &flights[g];
+        fly(f, heights, cones);
+        stop |= countLanes(f->met | f->out | (f->flying & (f->steps > HF_MOST_STEPS))) >= SOME_WAIT;
+        flying |= anyLane(f->flying);
+      }
+    } while (!stop && flying);
+    busy = 0;
+    for (uint g = 0; g < GROUPS; ++g) {
+      Flight* f = &flights[g];
+      serve(f, heights, cones, run, seed, ray_count, outcomes);
+      busy |= anyLane(f->flying);
+    }
+  }
+}

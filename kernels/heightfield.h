@@ -1,0 +1,52 @@
+// Layout of the simulated rough surfaces and of what a simulation counts, once for host and
+// kernels. Preprocessor constants and one struct only; rules as in types.h.
+//
+// A surface is a square tile of heights that repeats in x and y, cut into two flat triangles per
+// cell by the diagonal from (x, y) to (x + 1, y + 1). It is made for roughness 1; the kernels stretch
+// space so that every roughness, also an anisotropic one, is the same surface.
+#ifndef GLINTMARK_HEIGHTFIELD_H
+#define GLINTMARK_HEIGHTFIELD_H
+
+#define HF_TILE 256u  // texels per side, a power of two
+#define HF_BLOCK_SHIFT 1u
+#define HF_BLOCKS (HF_TILE >> HF_BLOCK_SHIFT)  // blocks per side of the cone map
+#define HF_MODES 64u  // wave numbers 0 to 63 along x, -63 to 63 along y
+#define HF_MODE_ROWS (2u * HF_MODES - 1u)
+
+// Words of the height buffer: one row more than the tile has, so that the row above needs no
+// wrapping. A word holds the heights of texel (x, y) and, in its upper half, of (x + 1, y), as
+// signed 16-bit counts.
+#define HF_HEIGHT_WORDS ((HF_TILE + 1u) * HF_TILE)
+#define HF_MOST_COUNTS 32767
+
+// Words of one side's cone map: highest count of a block in the lower half, and in the upper half
+// the slope [counts per texel] of a cone from there that clears everything else.
+#define HF_CONE_WORDS (HF_BLOCKS * HF_BLOCKS)
+
+// The histogram: cells of equal solid angle, for each side (above, then below), scattering order
+// and cosine the azimuths from +x on. Behind them, counters.
+#define HF_COSINES 128u
+#define HF_AZIMUTHS 256u
+#define HF_CELLS (HF_COSINES * HF_AZIMUTHS)
+#define HF_MAX_ORDERS 6u
+#define HF_COUNTERS (2u * HF_MAX_ORDERS * HF_CELLS)
+#define HF_ABSORBED HF_COUNTERS                       // one per order
+#define HF_LEFT_OVER (HF_COUNTERS + HF_MAX_ORDERS)    // alive after the last order
+#define HF_GAVE_UP (HF_LEFT_OVER + 1u)                // lost after HF_MOST_STEPS cells and jumps
+#define HF_HISTOGRAM_WORDS (HF_GAVE_UP + 1u)
+
+// Cells and jumps that one flight between two bounces may take.
+#define HF_MOST_STEPS 16384
+
+typedef struct HeightfieldRun {
+  float4 incoming;     // xyz: unit direction in which the rays fly in, z < 0; w unused
+  float2 alpha;        // roughness along x and y
+  float count_height;  // height of one count at roughness 1 [texels]
+  float index_n;       // refractive index: real part
+  float index_k;       // and imaginary part (metals)
+  uint orders;         // rays are followed to this many bounces, 1 to HF_MAX_ORDERS
+  uint rays_per_lane;
+  uint padding;  // to a multiple of 16 bytes
+} HeightfieldRun;
+
+#endif
