@@ -1,14 +1,15 @@
 // glintmark fit: what is computed once, before any frame.
 #include <CLI/CLI.hpp>
 
-#include "host/cli/command_line.h"
+#include "host/cli/fit_commands.h"
 
 namespace glintmark {
 
 void addFitCommand(CLI::App& app, CommandLine& line) {
   CLI::App* command = app.add_subcommand("fit", "Computes the tables that shading needs");
   command->require_subcommand(1);
-  (void)line;
+  addFitLtcCommand(*command, line);
+  addFitMesoCommand(*command, line);
   for (CLI::App* table : command->get_subcommands(nullptr)) table->fallthrough();
 }
 

@@ -1,0 +1,170 @@
+// glintmark fit ltc: tables of linearly transformed cosines, and how good they are.
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <memory>
+
+#include "host/cli/fit_commands.h"
+#include "host/cli/interrupt.h"
+#include "host/core/error.h"
+#include "host/core/progress.h"
+#include "host/core/stopwatch.h"
+#include "host/fit/ltc_error.h"
+#include "host/fit/ltc_fit.h"
+#include "host/report/atomic_file.h"
+#include "host/report/image_io.h"
+#include "host/report/matrix_picture.h"
+#include "host/report/text_table.h"
+
+namespace glintmark {
+namespace {
+
+struct FitLtcCommand {
+  std::string ndf = "ggx", output, picture, compare;
+  int size = LTC_SIZE_DEFAULT;
+  bool shipped = false;
+};
+
+struct MeasuredTable {
+  std::string name;
+  LtcErrors nodes, midpoints;
+};
+
+reference::Ndf parseNdf(const std::string& name) {
+  for (const reference::Ndf ndf : {reference::Ndf::kGgx, reference::Ndf::kBeckmann}) {
+    if (name == reference::ndfName(ndf)) return ndf;
+  }
+  throw Error(fmt::format("unknown distribution '{}'; distributions are ggx and beckmann", name));
+}
+
+void check(const FitLtcCommand& command) {
+  parseNdf(command.ndf);
+  if (!command.output.empty()) requireWritableFile(command.output);
+  if (!command.picture.empty()) {
+    if (std::filesystem::path(command.picture).extension() != ".png") {
+      throw Error(fmt::format("--picture '{}' must end in .png", command.picture));
+    }
+    requireWritableFile(command.picture);
+  }
+  if (command.size < LTC_SIZE_MIN || command.size > LTC_SIZE_MAX) {
+    throw Error(fmt::format("--size {} is not possible; sizes are {} to {}", command.size,
+                            LTC_SIZE_MIN, LTC_SIZE_MAX));
+  }
+}
+
+LtcTable fitWithProgress(const FitLtcCommand& command, const CommonOptions& common) {
+  const InterruptGuard guard;
+  Progress progress(common.quiet);
+  const Stopwatch stopwatch;
+  LtcTable table = fitLtcTable({.ndf = parseNdf(command.ndf),
+                                .size = command.size,
+                                .threads = common.threads,
+                                .progress = [&](double share) {
+                                  if (InterruptGuard::interrupted()) {
+                                    throw Interrupted("interrupted; nothing was written");
+                                  }
+                                  progress.show(static_cast<int>(share * 100), 100, "% of the fit");
+                                }});
+  progress.clear();
+  fmt::print("fitted {} {}x{} in {:.1f} s\n", command.ndf, command.size, command.size,
+             stopwatch.elapsedNs() * 1e-9);
+  return table;
+}
+
+MeasuredTable measure(const std::string& name, const LtcTable& table) {
+  return {name, ltcNodeErrors(table), ltcMidpointErrors(table)};
+}
+
+std::vector<std::string> summaryRow(const std::string& name, const std::string& where,
+                                    const LtcErrors& errors) {
+  std::vector<double> sorted = errors.values;
+  std::sort(sorted.begin(), sorted.end());
+  const auto quantile = [&](double q) {
+    return fmt::format("{:.4f}", sorted[static_cast<std::size_t>(q * (sorted.size() - 1))]);
+  };
+  return {name,          where,          fmt::format("{:.4f}", errors.mean()),
+          quantile(0.5), quantile(0.95), quantile(1)};
+}
+
+void printSummary(const std::vector<MeasuredTable>& tables) {
+  TextTable text({"integral of |LTC - BRDF cos|", "where", "mean", "median", "p95", "max"});
+  for (const MeasuredTable& table : tables) {
+    text.addRow(summaryRow(table.name, "nodes", table.nodes));
+    text.addRow(summaryRow(table.name, "between", table.midpoints));
+  }
+  fmt::print("{}", text.toString());
+}
+
+void printComparison(const LtcErrors& ours, const LtcErrors& theirs) {
+  int worse = 0;
+  double most = 0;
+  for (std::size_t i = 0; i < ours.values.size(); ++i) {
+    const double excess = ours.values[i] - theirs.values[i];
+    // What the cubature cannot tell apart does not count.
+    if (excess > 0.01 * theirs.values[i] + 1e-4) ++worse;
+    most = std::max(most, excess);
+  }
+  fmt::print("at {} of {} nodes the error is larger than the compared table's, by at most {:.4f}\n",
+             worse, ours.values.size(), most);
+}
+
+void writePicture(const std::vector<MeasuredTable>& tables, const std::string& file) {
+  std::vector<MatrixPanel> panels;
+  for (const MeasuredTable& table : tables) panels.push_back({table.name, table.nodes.values});
+  const LtcErrors& first = tables.front().nodes;
+  writePng(matrixPicture(panels, {.width = first.width,
+                                  .height = first.height,
+                                  .entry_px = std::max(2, 384 / first.width),
+                                  .low = 0,
+                                  .high = 0.7,
+                                  .title = "integral of |LTC - BRDF cos| over the hemisphere",
+                                  .x_label = "sqrt(alpha) 0 to 1",
+                                  .y_label = "sqrt(1 - cos theta) 0 to 1"}),
+           file);
+}
+
+int runFitLtc(const CommonOptions& common, const FitLtcCommand& command) {
+  check(command);
+  std::vector<MeasuredTable> tables;
+  LtcTable published;
+  if (!command.compare.empty()) published = readPublishedLtc(command.compare);
+  const LtcTable table =
+      command.shipped ? shippedLtcTable(parseNdf(command.ndf)) : fitWithProgress(command, common);
+  if (!command.compare.empty() && (published.size != table.size || published.ndf != table.ndf)) {
+    throw Error(fmt::format("{} is a ggx table of size {}; compare with --ndf ggx --size {}",
+                            command.compare, published.size, published.size));
+  }
+  if (!command.output.empty()) writeFile(command.output, serializeLtcTable(table));
+  tables.push_back(measure(command.ndf, table));
+  if (!command.compare.empty()) tables.push_back(measure("compared", published));
+  printSummary(tables);
+  if (tables.size() > 1) printComparison(tables[0].nodes, tables[1].nodes);
+  if (!command.picture.empty()) writePicture(tables, command.picture);
+  return kExitDone;
+}
+
+}  // namespace
+
+void addFitLtcCommand(CLI::App& fit, CommandLine& line) {
+  auto options = std::make_shared<FitLtcCommand>();
+  CLI::App* command = fit.add_subcommand(
+      "ltc", "Linearly transformed cosines of a microfacet BRDF, and their error");
+  command->add_option("--ndf", options->ndf, "ggx or beckmann (default: ggx)");
+  command->add_option("--size", options->size, "Nodes along each axis, 8 to 128 (default: 64)");
+  command->add_option("-o,--output", options->output, "The table")->type_name("FILE");
+  command->add_option("--picture", options->picture, "Error of every node in false colours")
+      ->type_name("FILE.png");
+  command->add_option("--compare", options->compare, "Published ltc.mat to compare with")
+      ->type_name("FILE");
+  command->add_flag("--shipped", options->shipped, "Measure the table that ships; fit nothing");
+  command->footer(
+      "Examples:\n"
+      "  glintmark fit ltc --ndf beckmann -o ltc_beckmann.table\n"
+      "  glintmark fit ltc --shipped --picture fit_error.png");
+  command->callback([options, &line] {
+    line.action = [options, &line] { return runFitLtc(line.common, *options); };
+  });
+}
+
+}  // namespace glintmark
