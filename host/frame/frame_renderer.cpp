@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <optional>
 
 #include "host/core/error.h"
 #include "host/core/stopwatch.h"
+#include "host/frame/area_lights.h"
 #include "host/frame/effects.h"
 #include "host/frame/lights.h"
 #include "host/ocl/compute.h"
@@ -41,6 +43,8 @@ struct FrameRenderer::Impl {
     Kernel kernel;
     Buffer frame_params;
     Buffer material;
+    Buffer map_layout, map_texels;  // of a normal map, if the material has one
+    std::vector<KernelArg> area_args;
   };
 
   // Rows of the frame that fit into the device's largest buffer; as a rule there is one band.
@@ -53,11 +57,12 @@ struct FrameRenderer::Impl {
   };
 
   Impl(Device& device_, const Scene& scene_, const View& view, const ShadingOptions& options_,
-       int thread_count)
+       int thread_count, std::shared_ptr<NormalTextures> textures_)
       : device(device_),
         scene(scene_),
         options(options_),
         cache(device_),
+        textures(textures_ ? std::move(textures_) : std::make_shared<NormalTextures>(device_)),
         rasterizer(thread_count),
         camera(makeCamera(view, options_.width_px, options_.height_px)),
         lanes(options_.lanes > 0 ? options_.lanes : device_.info().default_lanes) {}
@@ -66,6 +71,8 @@ struct FrameRenderer::Impl {
   void makeLights();
   void makeBuffers(Band& band, FrameTimes& times);
   void makeLaunches(Band& band);
+  FrameTimes launchAll(const std::vector<KernelArg>& last_args);
+  Image readPlanes(std::size_t first_plane, double& readback_ns) const;
   std::vector<KernelArg> arguments(const Band& band, const Launch& launch) const;
   void forEachCount(
       const std::function<void(const Band&, std::uint32_t entry, std::uint32_t word)>& visit) const;
@@ -74,6 +81,7 @@ struct FrameRenderer::Impl {
   const Scene& scene;
   ShadingOptions options;
   ProgramCache cache;
+  std::shared_ptr<NormalTextures> textures;
   Rasterizer rasterizer;
   Camera camera;
   int lanes;
@@ -81,13 +89,16 @@ struct FrameRenderer::Impl {
   std::vector<Band> bands;
   std::vector<KernelConfig> configs;
   Buffer lights, taps;
+  std::optional<AreaLightBuffers> area_lights;
   uint light_count = 0;
   double build_ns = 0;
 };
 
 void FrameRenderer::Impl::makeBands() {
-  // The planes are the largest buffer, unless there are fewer of them than of radiance channels.
-  const std::size_t words = std::max<std::size_t>(planesFor(scene, options).size(), 3);
+  // The planes are the largest buffer, unless there are fewer of them than of radiance channels and
+  // their squares.
+  const std::size_t words =
+      std::max<std::size_t>(planesFor(scene, options).size(), options.truth ? 6 : 3);
   const std::size_t row_bytes = words * 4 * static_cast<std::size_t>(camera.width_px);
   const std::size_t padding_bytes = words * 4 * GM_LIST_PADDING * scene.materials.size();
   const std::size_t limit = device.info().max_alloc_bytes;
@@ -110,6 +121,7 @@ void FrameRenderer::Impl::makeLights() {
   light_count = static_cast<uint>(prepared.lights.size());
   lights = uploadItems(device, std::move(prepared.lights), "the lights");
   taps = uploadItems(device, std::move(prepared.taps), "the lights' taps");
+  if (!area_lights) area_lights.emplace(device, scene, camera.eye);
 }
 
 void FrameRenderer::Impl::makeBuffers(Band& band, FrameTimes& times) {
@@ -119,7 +131,8 @@ void FrameRenderer::Impl::makeBuffers(Band& band, FrameTimes& times) {
   band.plane_buffer =
       Buffer::wrapHost(device, planes.storage.data(), plane_bytes, "the rasterized planes");
   times.upload_ns += band.plane_buffer.write(planes.storage.data(), plane_bytes);
-  band.radiance = Buffer(device, planes.stride * 12, "the radiance");
+  band.radiance = Buffer(device, planes.stride * (options.truth ? 24 : 12), "the radiance");
+  if (options.truth) band.radiance.fillZero();
   if (options.count_cells) band.counts = Buffer(device, planes.stride * 4, "the cell counts");
 }
 
@@ -131,9 +144,15 @@ void FrameRenderer::Impl::makeLaunches(Band& band) {
     launch.list = list;
     launch.config = configFor(material, scene, options, lanes);
     launch.config.planes = band.planes.mask;
-    const Program program = cache.get("shade.cl", launch.config);
+    const Program program = cache.get(options.truth ? "truth.cl" : "shade.cl", launch.config);
     build_ns += program.buildNs();
-    launch.kernel = program.kernel("shade");
+    launch.kernel = program.kernel(options.truth ? "truth" : "shade");
+    if (launch.config.normal_map) {
+      const NormalTexture& texture =
+          textures->get(material.normal_map->map, launch.config, options.mixture_order);
+      launch.map_layout = texture.layout;
+      launch.map_texels = texture.texels;
+    }
 
     FrameParams params{};
     params.ray_origin = toFloat4(band.camera.ray_origin);
@@ -143,6 +162,8 @@ void FrameRenderer::Impl::makeLaunches(Band& band) {
     params.list_offset = list.offset;
     params.list_count = list.count;
     params.plane_stride = static_cast<uint>(band.planes.stride);
+    area_lights->describe(launch.config, params);
+    launch.area_args = area_lights->arguments(launch.config);
     launch.frame_params = uploadItems(device, std::vector{params}, "the frame's parameters");
     launch.material = uploadItems(device, std::vector{material.glint}, "a material");
     if (std::ranges::find(configs, launch.config) == configs.end())
@@ -153,8 +174,14 @@ void FrameRenderer::Impl::makeLaunches(Band& band) {
 
 std::vector<KernelArg> FrameRenderer::Impl::arguments(const Band& band,
                                                       const Launch& launch) const {
-  std::vector<KernelArg> args = {
-      band.plane_buffer, launch.frame_params, launch.material, lights, taps, band.radiance};
+  std::vector<KernelArg> args = {band.plane_buffer, launch.frame_params, launch.material, lights,
+                                 taps};
+  if (launch.config.normal_map) {
+    args.emplace_back(launch.map_layout);
+    args.emplace_back(launch.map_texels);
+  }
+  args.insert(args.end(), launch.area_args.begin(), launch.area_args.end());
+  args.emplace_back(band.radiance);
   if (launch.config.count_cells) args.emplace_back(band.counts);
   return args;
 }
@@ -176,8 +203,10 @@ void FrameRenderer::Impl::forEachCount(
 }
 
 FrameRenderer::FrameRenderer(Device& device, const Scene& scene, const View& view,
-                             const ShadingOptions& options, int thread_count)
-    : impl_(std::make_unique<Impl>(device, scene, view, options, thread_count)) {}
+                             const ShadingOptions& options, int thread_count,
+                             std::shared_ptr<NormalTextures> textures)
+    : impl_(std::make_unique<Impl>(device, scene, view, options, thread_count,
+                                   std::move(textures))) {}
 FrameRenderer::~FrameRenderer() = default;
 
 FrameTimes FrameRenderer::prepare() {
@@ -197,27 +226,31 @@ FrameTimes FrameRenderer::prepare() {
   return times;
 }
 
-FrameTimes FrameRenderer::shade() {
+FrameTimes FrameRenderer::Impl::launchAll(const std::vector<KernelArg>& last_args) {
   FrameTimes times;
-  for (Impl::Band& band : impl_->bands)
-    for (Impl::Launch& launch : band.launches) {
-      const auto lanes = static_cast<std::size_t>(launch.config.width);
-      const std::size_t items = (launch.list.count + lanes - 1) / lanes;
-      const LaunchTimes t = launch.kernel.launch(impl_->arguments(band, launch), items, kLocalSize);
+  for (Band& band : bands)
+    for (Launch& launch : band.launches) {
+      const auto width = static_cast<std::size_t>(launch.config.width);
+      const std::size_t items = (launch.list.count + width - 1) / width;
+      std::vector<KernelArg> args = arguments(band, launch);
+      args.insert(args.end(), last_args.begin(), last_args.end());
+      const LaunchTimes t = launch.kernel.launch(args, items, kLocalSize);
       times.shading_event_ns += t.event_ns;
       times.shading_wall_ns += t.wall_ns;
     }
   return times;
 }
 
-Image FrameRenderer::readRadiance(FrameTimes* times) {
-  Image image(impl_->camera.width_px, impl_->camera.height_px, 4);
+// Three planes of `radiance` from `first_plane` on as an RGBA image.
+Image FrameRenderer::Impl::readPlanes(std::size_t first_plane, double& readback_ns) const {
+  Image image(camera.width_px, camera.height_px, 4);
   image.channel_names = {"R", "G", "B", "A"};
-  double readback_ns = 0;
-  for (const Impl::Band& band : impl_->bands) {
+  for (const Band& band : bands) {
     const PixelPlanes& planes = band.planes;
     std::vector<float> words(planes.stride * 3);
-    if (!words.empty()) readback_ns += band.radiance.read(words.data(), words.size() * 4);
+    if (!words.empty())
+      readback_ns +=
+          band.radiance.read(words.data(), words.size() * 4, first_plane * planes.stride * 4);
     const auto pixels = planes.plane(Plane::kPixel);
     for (const PixelList& list : planes.lists)
       tbb::parallel_for(list.offset, list.offset + list.count, [&](std::uint32_t i) {
@@ -227,8 +260,31 @@ Image FrameRenderer::readRadiance(FrameTimes* times) {
         out[3] = 1.0f;
       });
   }
+  return image;
+}
+
+FrameTimes FrameRenderer::shade() {
+  if (impl_->options.truth) throw Error("a renderer of the ground truth does not shade");
+  return impl_->launchAll({});
+}
+
+FrameTimes FrameRenderer::addTruthSamples(std::uint32_t sample_begin, std::uint32_t sample_count) {
+  if (!impl_->options.truth)
+    throw Error("samples of the ground truth need a renderer with ShadingOptions::truth");
+  return impl_->launchAll({sample_begin, sample_count});
+}
+
+Image FrameRenderer::readRadiance(FrameTimes* times) {
+  double readback_ns = 0;
+  Image image = impl_->readPlanes(0, readback_ns);
   if (times) times->readback_ns = readback_ns;
   return image;
+}
+
+Image FrameRenderer::readSquares() {
+  if (!impl_->options.truth) throw Error("only the ground truth has squares of its samples");
+  double readback_ns = 0;
+  return impl_->readPlanes(3, readback_ns);
 }
 
 Image FrameRenderer::readCells() {

@@ -7,6 +7,7 @@
 
 #include "host/core/image.h"
 #include "host/core/planes.h"
+#include "host/frame/normal_maps.h"
 #include "host/ocl/device.h"
 #include "host/ocl/kernel_config.h"
 #include "host/raster/rasterizer.h"
@@ -23,6 +24,14 @@ struct ShadingOptions {
   int ka = 16;
   bool glints = true;  // false: every glint material is shaded as its smooth lobe (the baseline)
   bool count_cells = false;
+  NormalMethod normal_method = NormalMethod::kGmm;  // of materials with a normal map
+  int lobes = 0;             // Gaussians of a mixture, 1 to 8; 0: the material's
+  int anisotropy = 16;       // most texture probes along a footprint, 1 to 16
+  bool half_texels = false;  // mixtures in half precision
+  MixtureOrder mixture_order = MixtureOrder::kColours;
+  LtcMethod ltc_method = LtcMethod::kExact;  // of materials with a normal map under area lights
+  bool clipless = false;                     // area lights are not clipped to the horizon
+  bool truth = false;  // supersample instead of shading: addTruthSamples() in place of shade()
 };
 
 /// Times of one frame [ns]. Shading is the sum over the launches of all materials.
@@ -44,16 +53,22 @@ struct CellCounts {
 
 class FrameRenderer {
  public:
+  /// `textures` may be shared with other renderers of the device.
   FrameRenderer(Device& device, const Scene& scene, const View& view, const ShadingOptions& options,
-                int thread_count = 0);
+                int thread_count = 0, std::shared_ptr<NormalTextures> textures = nullptr);
   ~FrameRenderer();
 
   /// Rasterizes and uploads; must come before shade(). Returns raster and upload times.
   FrameTimes prepare();
   /// Builds what is not built (once), launches every material's kernel and waits.
   FrameTimes shade();
+  /// Adds samples of the ground truth; needs ShadingOptions::truth. prepare() begins anew.
+  FrameTimes addTruthSamples(std::uint32_t sample_begin, std::uint32_t sample_count);
   /// Radiance as an RGBA image (alpha 1 where covered, background 0), linear, scene units.
+  /// Of the ground truth it is the sum over the samples.
   Image readRadiance(FrameTimes* times = nullptr);
+  /// Sums of the squares of the ground truth's samples, laid out like readRadiance().
+  Image readSquares();
   /// Cells per pixel as a one-channel image, -1 where no glint material covers; needs count_cells.
   Image readCells();
   CellCounts cellCounts();

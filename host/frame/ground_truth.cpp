@@ -1,0 +1,51 @@
+#include "host/frame/ground_truth.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/core/error.h"
+
+namespace glintmark {
+namespace {
+
+constexpr int kMostSpp = 1 << 20;
+// Samples of all pixels together in one launch: some tenths of a second on two cores.
+constexpr double kBatchSamples = 8e6;
+
+}  // namespace
+
+TruthImages renderTruth(Device& device, const Scene& scene, const View& view,
+                        ShadingOptions options, int spp,
+                        const std::function<void(int done)>& progress, int thread_count,
+                        std::shared_ptr<NormalTextures> textures) {
+  if (spp < 1 || spp > kMostSpp)
+    throw Error(fmt::format("{} samples a pixel are not from 1 to {}", spp, kMostSpp));
+  options.truth = true;
+  FrameRenderer renderer(device, scene, view, options, thread_count, std::move(textures));
+  renderer.prepare();
+  const Camera& camera = renderer.camera();
+  const double pixels = static_cast<double>(camera.width_px) * camera.height_px;
+  const int batch = std::max(1, static_cast<int>(kBatchSamples / pixels));
+  for (int done = 0; done < spp;) {
+    const int count = std::min(batch, spp - done);
+    renderer.addTruthSamples(static_cast<std::uint32_t>(done), static_cast<std::uint32_t>(count));
+    done += count;
+    if (progress) progress(done);
+  }
+
+  TruthImages truth{renderer.readRadiance(), Image(camera.width_px, camera.height_px, 3)};
+  const Image squares = renderer.readSquares();
+  const auto n = static_cast<float>(spp);
+  for (std::size_t i = 0; i < squares.pixels.size() / 4; ++i)
+    for (std::size_t c = 0; c < 3; ++c) {
+      float& mean = truth.mean.pixels[4 * i + c];
+      mean /= n;
+      const float variance = std::max(0.0f, squares.pixels[4 * i + c] / n - mean * mean);
+      truth.standard_error.pixels[3 * i + c] = spp > 1 ? std::sqrt(variance / (n - 1)) : 0.0f;
+    }
+  return truth;
+}
+
+}  // namespace glintmark
