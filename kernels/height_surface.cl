@@ -70,51 +70,56 @@ kernel void packHeights(global const int* counts, global uint* heights) {
   heights[item] = here | ((uint)counts[row + (x + 1u) % HF_TILE] << 16);
 }
 
-// Highest vertex of every block, its borders included; then the same of the surface upside down.
-// One work-item per block.
-kernel void blockTops(global const int* counts, global int* tops) {
+// tops: highest vertex of every block, its borders included, for both sides (below, the surface is
+// upside down); in rows of HF_TOP_PITCH that repeat what follows on either side. highest: of each
+// side, to be set to -HF_MOST_COUNTS before. One work-item per entry of a side.
+kernel void blockTops(global const int* counts, global int* tops, global int* highest) {
   const uint item = (uint)get_global_id(0);
-  if (item >= HF_CONE_WORDS) return;
-  const uint block_x = item % HF_BLOCKS << HF_BLOCK_SHIFT, block_y = item / HF_BLOCKS << HF_BLOCK_SHIFT;
-  int highest = -HF_MOST_COUNTS, lowest = HF_MOST_COUNTS;
+  if (item >= HF_TOP_WORDS) return;
+  const uint block_x = (item % HF_TOP_PITCH + HF_BLOCKS - HF_CONE_REACH) % HF_BLOCKS;
+  const uint block_y = item / HF_TOP_PITCH;
+  int top = -HF_MOST_COUNTS, bottom = HF_MOST_COUNTS;
   for (uint y = 0; y <= 1u << HF_BLOCK_SHIFT; ++y) {
+    const uint row = ((block_y << HF_BLOCK_SHIFT) + y) % HF_TILE * HF_TILE;
     for (uint x = 0; x <= 1u << HF_BLOCK_SHIFT; ++x) {
-      const int h = counts[(block_y + y) % HF_TILE * HF_TILE + (block_x + x) % HF_TILE];
-      highest = max(highest, h);
-      lowest = min(lowest, h);
+      const int h = counts[row + ((block_x << HF_BLOCK_SHIFT) + x) % HF_TILE];
+      top = max(top, h);
+      bottom = min(bottom, h);
     }
   }
-  tops[item] = highest;
-  tops[HF_CONE_WORDS + item] = -lowest;
+  tops[item] = top;
+  tops[HF_TOP_WORDS + item] = -bottom;
+  if (top > highest[0]) atomic_max(&highest[0], top);
+  if (-bottom > highest[1]) atomic_max(&highest[1], -bottom);
 }
 
 // Cones. From a point over a block, at the height of the highest vertex of the 3 x 3 blocks around
 // it or above, rays that rise more steeply than the slope meet nothing. Blocks beyond the reach are
-// taken to be as high as counts go, which is safe. One work-item per block and side.
-#define CONE_REACH 12
-kernel void blockCones(global const int* tops, global uint* cones) {
-  const uint item = (uint)get_global_id(0);
+// taken to be as high as the highest. inverse_gaps: for blocks dx, dy apart, index
+// |dy| (HF_CONE_REACH + 1) + |dx|, 1 / the distance between their squares [1 / blocks], 0 for
+// neighbours. One work-item per side and 16 blocks in a row.
+kernel void blockCones(global const int* tops, global const int* highest,
+                       global const float* inverse_gaps, global uint* cones) {
+  const uint item = (uint)get_global_id(0) * 16u;
   if (item >= 2u * HF_CONE_WORDS) return;
-  global const int* side = tops + item / HF_CONE_WORDS * HF_CONE_WORDS;
-  const uint block = item % HF_CONE_WORDS;
+  const uint side = item / HF_CONE_WORDS, block = item % HF_CONE_WORDS;
   const int x = (int)(block % HF_BLOCKS), y = (int)(block / HF_BLOCKS);
-  int top = -HF_MOST_COUNTS;
-  for (int i = 0; i < 9; ++i) {
-    const uint row = (uint)(y + i / 3 - 1) % HF_BLOCKS, column = (uint)(x + i % 3 - 1) % HF_BLOCKS;
-    top = max(top, side[row * HF_BLOCKS + column]);
+  global const int* centre = tops + side * HF_TOP_WORDS + x + HF_CONE_REACH;
+  int16 top = -HF_MOST_COUNTS;
+  for (int dy = -1; dy <= 1; ++dy) {
+    global const int* row = centre + (uint)(y + dy) % HF_BLOCKS * HF_TOP_PITCH;
+    top = max(max(top, vload16(0, row)), max(vload16(0, row - 1), vload16(0, row + 1)));
   }
-  // Slopes are counts per block here. What is left out of a ring is farther away than its gap.
-  float slope = (float)(HF_MOST_COUNTS - top) / (float)CONE_REACH;
-  for (int dy = -CONE_REACH; dy <= CONE_REACH; ++dy) {
-    global const int* row = side + (uint)(y + dy) % HF_BLOCKS * HF_BLOCKS;
-    for (int dx = -CONE_REACH; dx <= CONE_REACH; ++dx) {
-      const int rise = row[(uint)(x + dx) % HF_BLOCKS] - top;
-      // Distance between the two squares, no more than what any ray flies between them.
-      const int gap_x = max((int)abs(dx) - 1, 0), gap_y = max((int)abs(dy) - 1, 0);
-      if (rise > 0) slope = max(slope, (float)rise * rsqrt((float)(gap_x * gap_x + gap_y * gap_y)));
-    }
+  // Slopes are counts per block here. What lies beyond the reach is at least as many blocks away.
+  float16 slope = convert_float16(highest[side] - top) * (1.0f / (float)HF_CONE_REACH);
+  for (int dy = -HF_CONE_REACH; dy <= HF_CONE_REACH; ++dy) {
+    global const int* row = centre + (uint)(y + dy) % HF_BLOCKS * HF_TOP_PITCH;
+    global const float* gaps = inverse_gaps + (uint)abs(dy) * (HF_CONE_REACH + 1);
+    for (int dx = -HF_CONE_REACH; dx <= HF_CONE_REACH; ++dx)
+      slope = max(slope, convert_float16(vload16(0, row + dx) - top) * gaps[abs(dx)]);
   }
   // The remainder covers rounding, here and in the kernel that reads it.
   slope = ceil(slope * (1.0001f / (float)(1u << HF_BLOCK_SHIFT))) + 1.0f;
-  cones[item] = ((uint)top & 0xFFFFu) | ((uint)min(slope, 65535.0f) << 16);
+  const uint16 bits = convert_uint16(min(slope, 65535.0f)) << 16;
+  vstore16(as_uint16(top & 0xFFFF) | bits, 0, cones + item);
 }

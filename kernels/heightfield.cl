@@ -30,7 +30,7 @@
 #if WIDTH == 1
 #define SOME_WAIT 1
 #elif !defined(SOME_WAIT)
-#define SOME_WAIT (WIDTH * 5 / 16)
+#define SOME_WAIT (WIDTH * 5 / 8)
 #endif
 
 // Groups of lanes that fly in turn: while one waits for memory another computes.

@@ -23,6 +23,12 @@
 // the slope [counts per texel] of a cone from there that clears everything else.
 #define HF_CONE_WORDS (HF_BLOCKS * HF_BLOCKS)
 
+// Heights of blocks while the map is made: rows with as many repeated blocks on either side as a
+// cone is searched for.
+#define HF_CONE_REACH 12
+#define HF_TOP_PITCH (HF_BLOCKS + 2u * HF_CONE_REACH)
+#define HF_TOP_WORDS (HF_BLOCKS * HF_TOP_PITCH)
+
 // The histogram: cells of equal solid angle, for each side (above, then below), scattering order
 // and cosine the azimuths from +x on. Behind them, counters.
 #define HF_COSINES 128u

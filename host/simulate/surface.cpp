@@ -1,5 +1,6 @@
 #include "host/simulate/surface.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -29,6 +30,17 @@ std::vector<float> waveTable(double (*function)(double)) {
   return table;
 }
 
+// One over the distance between the squares of two blocks, 0 for neighbours.
+std::vector<float> inverseGaps() {
+  std::vector<float> table;
+  for (int dy = 0; dy <= HF_CONE_REACH; ++dy)
+    for (int dx = 0; dx <= HF_CONE_REACH; ++dx) {
+      const double gap = std::hypot(std::max(dx - 1, 0), std::max(dy - 1, 0));
+      table.push_back(gap > 0 ? static_cast<float>(1 / gap) : 0.0f);
+    }
+  return table;
+}
+
 }  // namespace
 
 SurfaceMaker::SurfaceMaker(Device& device, ProgramCache& cache, double correlation_texels) {
@@ -52,7 +64,9 @@ SurfaceMaker::SurfaceMaker(Device& device, ProgramCache& cache, double correlati
   columns_ = words(std::size_t{2} * HF_MODES * HF_TILE, "the surface's columns");
   counts_ = words(std::size_t{HF_TILE} * HF_TILE, "the surface's heights");
   heights_ = words(HF_HEIGHT_WORDS, "the surface's packed heights");
-  tops_ = words(std::size_t{2} * HF_CONE_WORDS, "the surface's block tops");
+  tops_ = words(std::size_t{2} * HF_TOP_WORDS, "the surface's block tops");
+  highest_ = words(2, "the surface's extremes");
+  inverse_gaps_ = upload(device, inverseGaps(), "distances between blocks");
   cones_ = words(std::size_t{2} * HF_CONE_WORDS, "the surface's cones");
 }
 
@@ -66,8 +80,11 @@ double SurfaceMaker::draw(std::uint32_t seed) {
   launch(sum_rows_, {columns_, cosines_, sines_, counts_, count_height_},
          std::size_t{HF_TILE} * HF_TILE / 16);
   launch(pack_heights_, {counts_, heights_}, HF_HEIGHT_WORDS);
-  launch(block_tops_, {counts_, tops_}, HF_CONE_WORDS);
-  launch(block_cones_, {tops_, cones_}, std::size_t{2} * HF_CONE_WORDS);
+  const std::int32_t lowest[2] = {-HF_MOST_COUNTS, -HF_MOST_COUNTS};
+  highest_.write(lowest, sizeof lowest);
+  launch(block_tops_, {counts_, tops_, highest_}, HF_TOP_WORDS);
+  launch(block_cones_, {tops_, highest_, inverse_gaps_, cones_},
+         std::size_t{2} * HF_CONE_WORDS / 16);
   return ns;
 }
 

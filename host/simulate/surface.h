@@ -32,7 +32,8 @@ class SurfaceMaker {
  private:
   float count_height_ = 0;
   Kernel draw_modes_, sum_columns_, sum_rows_, pack_heights_, block_tops_, block_cones_;
-  Buffer amplitudes_, modes_, cosines_, sines_, columns_, counts_, heights_, tops_, cones_;
+  Buffer amplitudes_, modes_, cosines_, sines_, columns_, counts_, heights_, tops_, highest_, inverse_gaps_,
+      cones_;
 };
 
 /// Measured over the facets of a surface from SurfaceMaker::readCounts.
