@@ -14,8 +14,7 @@
 #include "pixel.clh"
 #if NORMAL_MAP
 #include "normal_frame.clh"
-#define TEXEL_SIZE 1
-#include "texture_sum.clh"
+#include "texture_rgba.clh"
 #endif
 
 // Steps of the R2 sequence, 2^32 over powers of the plastic number: n points fill the square evenly
