@@ -13,13 +13,8 @@
 
 namespace glintmark {
 
-/// Bits of the IEEE half nearest to `value` (ties to even; beyond the range, infinity).
-std::uint16_t halfBits(float value);
-/// The value of a half.
-float halfValue(std::uint16_t bits);
-
-/// Four halves (a, mean.x, mean.y, s) a lobe, in the order of `mixtures.moments`: the layout that
-/// HALF_TEXELS reads with vload_half4.
+/// Four halves (a, mean.x, mean.y, s) a lobe, rounded to nearest, in the order of
+/// `mixtures.moments`: the layout that HALF_TEXELS reads with vload_half4.
 std::vector<std::uint16_t> packHalfMixtures(const NormalMixtures& mixtures);
 
 /// The lobe in four halves.

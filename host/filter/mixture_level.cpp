@@ -70,16 +70,24 @@ std::vector<NormalRow> MixtureLevel::rows(glm::ivec2 texel) const {
 
 std::vector<WeightedNormal> MixtureLevel::sample(glm::ivec2 texel, std::size_t most) const {
   const MipCover &column = columns_[texel.x], &row = rows_[texel.y];
-  const std::size_t columns = column_counts_[texel.x];
-  const double share = static_cast<double>(columns * row.weights.size()) / most;
-  const auto stride = std::max<std::size_t>(1, std::llround(std::sqrt(share)));
+  const std::size_t columns = column_counts_[texel.x], rows = row.weights.size();
   std::vector<WeightedNormal> result;
-  for (std::size_t j = 0; j < row.weights.size(); j += stride) {
-    // Shifted from row to row, so that features along the columns are met too.
-    for (std::size_t i = (j / stride * 7) % std::min(stride, columns); i < columns; i += stride) {
-      const std::size_t from = (row.first + j) * finest_.width_px + column.first + i;
-      result.push_back({{finest_.x[from], finest_.y[from]}, row.weights[j] * column.weights[i]});
+  const auto add = [&](std::size_t i, std::size_t j) {
+    const std::size_t from = (row.first + j) * finest_.width_px + column.first + i;
+    result.push_back({{finest_.x[from], finest_.y[from]}, row.weights[j] * column.weights[i]});
+  };
+  if (columns * rows <= most) {
+    for (std::size_t j = 0; j < rows; ++j) {
+      for (std::size_t i = 0; i < columns; ++i) add(i, j);
     }
+    return result;
+  }
+  // Roberts' R2 sequence: even, and in step with no pattern of the map as a lattice might be.
+  for (std::size_t k = 0; k < most; ++k) {
+    const double u = 0.7548776662466927 * static_cast<double>(k + 1);
+    const double v = 0.5698402909980532 * static_cast<double>(k + 1);
+    add(static_cast<std::size_t>((u - std::floor(u)) * static_cast<double>(columns)),
+        static_cast<std::size_t>((v - std::floor(v)) * static_cast<double>(rows)));
   }
   return result;
 }

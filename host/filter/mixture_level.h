@@ -36,7 +36,7 @@ class MixtureLevel {
   void copyNormals(glm::ivec2 texel, int lane, float* x, float* y, float* weight) const;
   /// The rows of normals under `texel`.
   std::vector<NormalRow> rows(glm::ivec2 texel) const;
-  /// At most about `most` of the normals under `texel`, evenly spread, for a clustered start.
+  /// The normals under `texel`, or `most` of them, evenly spread, for a clustered start.
   std::vector<WeightedNormal> sample(glm::ivec2 texel, std::size_t most) const;
 
  private:

@@ -6,10 +6,9 @@
 #include <string_view>
 #include <vector>
 
-namespace glintmark {
+#include "host/core/fnv1a.h"
 
-/// 64-bit FNV-1a of `bytes`, carried on from `hash`.
-std::uint64_t fnv1a(std::string_view bytes, std::uint64_t hash = 0xcbf29ce484222325u);
+namespace glintmark {
 
 /// Whole content of a file. Throws Error naming it if it cannot be read.
 std::string readFile(const std::filesystem::path& path);

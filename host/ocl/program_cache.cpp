@@ -6,7 +6,7 @@
 
 #include "host/core/stopwatch.h"
 #include "host/ocl/build_failure.h"
-#include "host/ocl/disk_cache.h"
+#include "host/core/disk_cache.h"
 #include "host/ocl/kernel_folder.h"
 #include "host/ocl/opencl.h"
 

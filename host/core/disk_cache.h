@@ -1,5 +1,5 @@
-// Compiled programs on disk. Nothing here ever fails: a cache that cannot be read or written is
-// a cache that misses.
+// What took long to compute, on disk: compiled programs, fitted mixtures. Nothing here ever fails:
+// a cache that cannot be read or written is a cache that misses.
 #pragma once
 #include <filesystem>
 #include <optional>
@@ -8,7 +8,7 @@
 namespace glintmark {
 
 /// A folder of entries, one file per name:
-///   "glintmark.program/1\n", key length, key, binary length, FNV-1a of the binary, binary;
+///   "glintmark.cache/1\n", key length, key, binary length, FNV-1a of the binary, binary;
 /// lengths and hash as 8 bytes in the machine's order. An entry is good for its whole key only; a
 /// new key under the same name (newer sources, say) replaces it, so that the folder stays small.
 class DiskCache {

@@ -1,4 +1,4 @@
-#include "host/ocl/disk_cache.h"
+#include "host/core/disk_cache.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -7,18 +7,17 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 #include <string_view>
 #include <system_error>
 
-#include "host/ocl/kernel_folder.h"
+#include "host/core/fnv1a.h"
 
 namespace glintmark {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kMagic = "glintmark.program/1\n";
+constexpr std::string_view kMagic = "glintmark.cache/1\n";
 
 void append(std::string& out, std::uint64_t value) {
   char bytes[sizeof value];
@@ -78,8 +77,12 @@ fs::path DiskCache::entryPath(const std::string& name) const {
 
 std::optional<std::string> DiskCache::load(const std::string& name, const std::string& key) const {
   if (folder_.empty()) return std::nullopt;
+  std::error_code error;
+  const auto bytes = fs::file_size(entryPath(name), error);
+  if (error) return std::nullopt;
+  std::string entry(bytes, '\0');
   std::ifstream file(entryPath(name), std::ios::binary);
-  const std::string entry{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  if (!file.read(entry.data(), static_cast<std::streamsize>(bytes))) return std::nullopt;
 
   EntryReader reader(entry);
   if (reader.take(kMagic.size()) != kMagic) return std::nullopt;
