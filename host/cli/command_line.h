@@ -38,8 +38,10 @@ void addInfoCommand(CLI::App& app, CommandLine& line);
 void addRenderCommand(CLI::App& app, CommandLine& line);
 void addHeatmapCommand(CLI::App& app, CommandLine& line);
 void addBenchCommand(CLI::App& app, CommandLine& line);
+void addSimulateCommand(CLI::App& app, CommandLine& line);
 void addFitCommand(CLI::App& app, CommandLine& line);
 void addCompareCommand(CLI::App& app, CommandLine& line);
+void addReportCommand(CLI::App& app, CommandLine& line);
 
 struct ImageSize {
   int width_px = 1920, height_px = 1080;

@@ -114,8 +114,10 @@ int runProgram(int argc, const char* const* argv) {
   addRenderCommand(app, line);
   addHeatmapCommand(app, line);
   addBenchCommand(app, line);
+  addSimulateCommand(app, line);
   addFitCommand(app, line);
   addCompareCommand(app, line);
+  addReportCommand(app, line);
   for (CLI::App* command : app.get_subcommands(nullptr)) command->fallthrough();
 
   try {

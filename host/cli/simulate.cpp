@@ -1,0 +1,210 @@
+// glintmark simulate: rays at a rough surface. [PAT18] "Using Brute Force Ray-Casting"
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <memory>
+#include <numbers>
+
+#include "host/cli/command_line.h"
+#include "host/cli/interrupt.h"
+#include "host/core/error.h"
+#include "host/core/progress.h"
+#include "host/core/stopwatch.h"
+#include "host/report/atomic_file.h"
+#include "host/report/image_io.h"
+#include "host/report/lobe_picture.h"
+#include "host/report/text_table.h"
+#include "host/simulate/simulation.h"
+#include "host/simulate/simulation_file.h"
+
+namespace glintmark {
+namespace {
+
+constexpr double kCheckpointEvery_ns = 10e9;
+
+struct SimulateOptions {
+  std::string surface = "diffuse";
+  std::vector<double> alpha = {0.8};
+  double rays = 1 << 24;
+  double albedo = 1;
+  std::string checkpoint, picture, csv;
+  bool resume = false;
+  SimulationSettings settings;
+};
+
+SurfaceKind parseSurface(const std::string& name) {
+  if (name == "diffuse") return SurfaceKind::kDiffuse;
+  if (name == "metal") return SurfaceKind::kMetal;
+  if (name == "dielectric") return SurfaceKind::kDielectric;
+  throw Error(
+      fmt::format("unknown surface '{}'; surfaces are diffuse, metal, dielectric", name));
+}
+
+SimulationSettings makeSettings(const SimulateOptions& options) {
+  SimulationSettings settings = options.settings;
+  settings.kind = parseSurface(options.surface);
+  settings.alpha = {options.alpha.front(), options.alpha.back()};
+  if (!(options.rays >= 0 && options.rays <= 281474976710656.0))
+    throw Error(fmt::format("--rays {} is not from 1 to 2^48", options.rays));
+  settings.rays = static_cast<std::uint64_t>(options.rays);
+  if (!(options.albedo >= 0 && options.albedo <= 1))
+    throw Error(fmt::format("--albedo {} is not from 0 to 1", options.albedo));
+  if (options.albedo < 1 && settings.kind != SurfaceKind::kDiffuse)
+    throw Error("--albedo is for diffuse surfaces; metals and dielectrics follow Fresnel");
+  if (options.resume && options.checkpoint.empty())
+    throw Error("--resume needs the file to carry on from: add --checkpoint FILE");
+  validate(settings);
+  return settings;
+}
+
+// Casts what is missing, with checkpoints now and then and after Ctrl-C.
+void castRays(Simulator& simulator, Simulation& simulation, const SimulateOptions& options,
+              bool quiet) {
+  const InterruptGuard guard;
+  Progress progress(quiet);
+  const auto save = [&] {
+    if (!options.checkpoint.empty()) writeFile(options.checkpoint, packSimulation(simulation));
+  };
+  const std::uint64_t total = simulation.settings.rays;
+  double saved_ns = 0;
+  const Stopwatch watch;
+  while (simulation.rays_done < total) {
+    simulator.advance(simulation);
+    progress.show(static_cast<int>(100 * simulation.rays_done / total), 100, "per cent of the rays");
+    const bool stop = InterruptGuard::interrupted() && simulation.rays_done < total;
+    if (stop || watch.elapsedNs() - saved_ns > kCheckpointEvery_ns) {
+      save();
+      saved_ns = watch.elapsedNs();
+    }
+    if (stop) {
+      progress.clear();
+      throw Interrupted(options.checkpoint.empty()
+                            ? "interrupted; nothing is kept without --checkpoint FILE"
+                            : fmt::format("interrupted; {} of {} rays are kept in {}, --resume "
+                                          "carries on",
+                                          simulation.rays_done, total, options.checkpoint));
+    }
+  }
+  save();
+}
+
+// Where the energy went. A diffuse microfacet of albedo a keeps a of what meets it, so an order's
+// energy is its counts times a^order and the rest was absorbed on the way.
+std::string energyTable(const Simulation& simulation, double albedo) {
+  const bool refracts = simulation.settings.kind == SurfaceKind::kDielectric;
+  const auto rays = static_cast<double>(simulation.rays_done);
+  std::vector<std::string> header = {"order", "energy above", "standard error"};
+  if (refracts) header.insert(header.end(), {"energy below"});
+  TextTable table(header);
+  double above = 0, below = 0;
+  for (int order = 1; order <= simulation.settings.orders; ++order) {
+    const double share = orderEnergy(simulation, order);
+    const double weight = std::pow(albedo, order);
+    std::vector<std::string> row = {
+        fmt::format("{}", order), fmt::format("{:.6f}", weight * share),
+        fmt::format("{:.1e}", weight * std::sqrt(share * (1 - share) / rays))};
+    above += weight * share;
+    if (refracts) {
+      const double through = static_cast<double>(simulation.left(1, order)) / rays;
+      row.push_back(fmt::format("{:.6f}", through));
+      below += through;
+    }
+    table.addRow(row);
+  }
+  const double left = std::pow(albedo, simulation.settings.orders) *
+                      static_cast<double>(simulation.leftOver() + simulation.gaveUp()) / rays;
+  const double absorbed = simulation.settings.kind == SurfaceKind::kDiffuse
+                              ? 1 - above - left
+                              : static_cast<double>(simulation.absorbed()) / rays;
+  return table.toString() +
+         fmt::format(
+             "\nescaped {:.6f}, absorbed {:.6f}, left over after order {} {:.6f}; "
+             "counted {:.9f} of the rays\n",
+             above + below, absorbed, simulation.settings.orders, left, simulation.balance());
+}
+
+std::string energyCsv(const Simulation& simulation, double albedo) {
+  std::string text = "order,above,below\n";
+  for (int order = 1; order <= simulation.settings.orders; ++order)
+    text += fmt::format("{},{},{}\n", order, orderEnergy(simulation, order, albedo),
+                        static_cast<double>(simulation.left(1, order)) /
+                            static_cast<double>(simulation.rays_done));
+  return text;
+}
+
+int runSimulate(const CommandLine& line, const SimulateOptions& options) {
+  const SimulationSettings settings = makeSettings(options);
+  for (const std::string& file : {options.checkpoint, options.picture, options.csv})
+    if (!file.empty()) requireWritableFile(file);
+  if (!options.picture.empty() && requireImageExtension(options.picture) != ".png")
+    throw Error(fmt::format("--output '{}' must end in .png", options.picture));
+  Simulation simulation{settings, 0, {}};
+  if (options.resume)
+    simulation =
+        unpackSimulation(readTextFile(options.checkpoint), settings, options.checkpoint);
+
+  Device device = openDevice(line.common);
+  ProgramCache cache(device);
+  Simulator simulator(device, cache, chosenLanes(line.common, device));
+  const std::uint64_t before = simulation.rays_done;
+  castRays(simulator, simulation, options, line.common.quiet);
+
+  fmt::print("{}, {} rays\n\n{}", describeSettings(settings), simulation.rays_done,
+             energyTable(simulation, options.albedo));
+  if (simulation.rays_done > before) {
+    const SlopeMoments m =
+        slopeMoments(simulator.surface().readCounts(), simulator.surface().countHeight());
+    const double seconds = (simulator.traceNs() + simulator.surfaceNs()) * 1e-9;
+    fmt::print(
+        "roughness {:.4f} x {:.4f} nominal, {:.4f} x {:.4f} effective in the last surface\n"
+        "{:.2f} s, {:.2f} million rays per second\n",
+        settings.alpha.x, settings.alpha.y, settings.alpha.x * std::sqrt(2 * m.variance_x),
+        settings.alpha.y * std::sqrt(2 * m.variance_y), seconds,
+        static_cast<double>(simulation.rays_done - before) / seconds * 1e-6);
+  }
+  if (simulation.gaveUp() > 0)
+    fmt::print("{} rays met the limit of {} steps and count as left over\n", simulation.gaveUp(),
+               HF_MOST_STEPS);
+  if (!options.picture.empty()) writePng(histogramPicture(simulation), options.picture);
+  if (!options.csv.empty()) writeFile(options.csv, energyCsv(simulation, options.albedo));
+  return simulation.balance() == 1 ? kExitDone : kExitCheckFailed;
+}
+
+}  // namespace
+
+void addSimulateCommand(CLI::App& app, CommandLine& line) {
+  auto options = std::make_shared<SimulateOptions>();
+  SimulationSettings& s = options->settings;
+  CLI::App* command =
+      app.add_subcommand("simulate", "Casts rays at a rough surface and counts what leaves");
+  command->add_option("--surface", options->surface, "diffuse, metal or dielectric")
+      ->type_name("KIND");
+  command->add_option("--alpha", options->alpha, "Beckmann roughness, one or along x and y (0.8)")
+      ->expected(1, 2);
+  command->add_option("--incidence", s.incidence_deg, "Of the light, degrees from the normal (45)");
+  command->add_option("--azimuth", s.azimuth_deg, "Of the light, degrees from x (0)");
+  command->add_option("--ior", s.index_n, "Index of refraction, of metals its real part (1.5)");
+  command->add_option("--k", s.index_k, "Imaginary part of a metal's index (0)");
+  command->add_option("--albedo", options->albedo, "Of diffuse microfacets (1)");
+  command->add_option("--orders", s.orders, "Bounces that rays are followed for, 1 to 6 (4)");
+  command->add_option("--rays", options->rays, "How many, as in 500e6 (2^24)");
+  command->add_option("--seed", s.seed, "Of surfaces and rays (1)");
+  command->add_option("--correlation", s.correlation_texels,
+                      "Correlation length of the heights in texels (3)");
+  command->add_option("--checkpoint", options->checkpoint, "Keeps what is done in this file")
+      ->type_name("FILE");
+  command->add_flag("--resume", options->resume, "Carries on from the checkpoint");
+  command->add_option("-o,--output", options->picture, "Picture of where the orders leave to")
+      ->type_name("FILE.png");
+  command->add_option("--csv", options->csv, "Energy per order")->type_name("FILE");
+  command->footer(
+      "Examples:\n"
+      "  glintmark simulate --alpha 0.8 --incidence 60 -o orders.png\n"
+      "  glintmark simulate --surface metal --ior 0.2 --k 3.9 --alpha 0.5 0.1\n"
+      "  glintmark simulate --rays 500e6 --checkpoint run.sim --resume");
+  command->callback([options, &line] {
+    line.action = [options, &line] { return runSimulate(line, *options); };
+  });
+}
+
+}  // namespace glintmark
