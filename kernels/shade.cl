@@ -11,6 +11,9 @@
 #if GLINT
 #include "glint_pixel.clh"
 #endif
+#if NORMAL_MAP
+#include "normal_surface.clh"
+#endif
 
 // planes: frame->plane_stride entries each, slots given by the PLANE_* switches. radiance: three
 // planes (r, g, b) of the same stride. cells: visited cells | 2^31 where a limit cut the walk.
@@ -48,13 +51,20 @@ kernel void shade(global const uint* planes, constant const FrameParams* frame,
   const CellMaterial cell_material = cellMaterial(material, gamma);
   const PixelCells pixel_cells = makePixelCells(&footprint, &cell_material);
 #endif
+#if NORMAL_MAP
+  const PixelNormals normals = loadNormals(planes, stride, entry, map, map_texels);
+#endif
   vint cells = (vint)(0);
   vmask limited = (vint)(0);
 
   vfloat3 sum = {(vfloat)(0.0f), (vfloat)(0.0f), (vfloat)(0.0f)};
   for (uint i = 0; i < frame->light_count; ++i) {
     constant const LightParams* light = &lights[i];
+#if NORMAL_MAP
+    const LightLobe lobe = evaluateMappedLight(&normals, basis, view, material, light, taps);
+#else
     const LightLobe lobe = evaluateLight(basis, view, lambda_view, material, light, taps);
+#endif
     vfloat3 ratio = {(vfloat)(1.0f), (vfloat)(1.0f), (vfloat)(1.0f)};
 #if GLINT
     const vmask lit = lobe.probability > MIN_PROBABILITY;

@@ -1,6 +1,9 @@
 #include "host/frame/normal_maps.h"
 
 #include "host/core/error.h"
+#include "host/filter/fournier_peaks.h"
+#include "host/filter/half_mixtures.h"
+#include "host/filter/mixture_cache.h"
 #include "host/filter/normal_moments.h"
 
 namespace glintmark {
@@ -36,9 +39,12 @@ NormalTexture upload(Device& device, const MipTexels& texels) {
 
 NormalTexture uploadMixtures(Device& device, const NormalMap& map, int lobes, bool half,
                              MixtureOrder order) {
-  const NormalMixtures mixtures = fitNormalMixtures(map, {.lobes = lobes, .order = order});
-  if (half) throw Error("half-precision mixtures are not there yet");
-  return upload(device, mixtures.moments);
+  const NormalMixtures mixtures =
+      cachedNormalMixtures(map, {.lobes = lobes, .order = order}, DiskCache::fromEnvironment())
+          .mixtures;
+  if (!half) return upload(device, mixtures.moments);
+  return upload(device, mixtures.moments.layout, packHalfMixtures(mixtures),
+                static_cast<std::size_t>(lobes) * 4 * sizeof(std::uint16_t));
 }
 
 NormalTexture makeTexture(Device& device, const NormalMap& map, NormalMethod method, int lobes,
@@ -52,7 +58,7 @@ NormalTexture makeTexture(Device& device, const NormalMap& map, NormalMethod met
     case NormalMethod::kLean:
       return upload(device, leanMoments(map));
     case NormalMethod::kFournier:
-      throw Error("Fournier peaks are not there yet");
+      return upload(device, fournierPeaks(map));
     case NormalMethod::kGmm:
       return uploadMixtures(device, map, lobes, half, order);
   }

@@ -7,6 +7,10 @@
 namespace glintmark::reference {
 namespace {
 
+// A box as wide as a texel and a tent twice as wide have, one after the other, the variance of a
+// box sqrt(3) texels wide.
+const double kProbeTexels = std::sqrt(3.0);
+
 int wrapped(int i, int n, bool repeat) {
   return repeat ? ((i % n) + n) % n : std::clamp(i, 0, n - 1);
 }
@@ -37,12 +41,12 @@ ProbeLine footprintProbes(int width, int height, int level_count, const glm::dve
   const glm::dvec2 major = std::cos(t) * dx + std::sin(t) * dy;
   const glm::dvec2 minor = std::cos(t) * dy - std::sin(t) * dx;
   const double length = glm::length(major);
-  const double probe = std::max({glm::length(minor), length / most_probes, 1.0});
+  const double probe = std::max({glm::length(minor), length / most_probes, kProbeTexels});
 
   ProbeLine line;
   line.ratio = length / probe;
   line.count = std::clamp(static_cast<int>(std::ceil(line.ratio - 0.01)), 1, most_probes);
-  line.level = std::clamp(std::log2(probe), 0.0, level_count - 1.0);
+  line.level = std::clamp(std::log2(probe / kProbeTexels), 0.0, level_count - 1.0);
   line.step = major / size / static_cast<double>(line.count);
   line.first = uv - line.step * (0.5 * (line.count - 1));
   return line;

@@ -25,8 +25,8 @@ struct ProbeLine {
 };
 
 /// Probes of a footprint: the singular values of the derivatives in texels are its axes; the minor
-/// one, but at least the major one over `most_probes` and one texel, is a probe's width, whose
-/// logarithm is the level.
+/// one, but at least the major one over `most_probes` and sqrt(3) texels, is a probe's width, and
+/// the level is the logarithm of that over sqrt(3).
 ProbeLine footprintProbes(int width, int height, int level_count, const glm::dvec2& uv,
                           const UvDerivatives& derivatives, int most_probes);
 
