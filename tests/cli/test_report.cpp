@@ -1,0 +1,52 @@
+// report on a results folder written here.
+#include <gtest/gtest.h>
+
+#include "host/report/atomic_file.h"
+#include "host/report/image_io.h"
+#include "host/report/records.h"
+#include "tests/cli/process.h"
+#include "tests/report/sample_records.h"
+
+namespace glintmark {
+namespace {
+
+class Report : public testing::Test {
+ protected:
+  void writeResults() {
+    const Results results{sampleRun(), {sampleRecord("snow/steep", "shading_ms", 42)}};
+    writeFile(folder_ / "results.json", toJson(results));
+  }
+  const TempFolder folder_;
+};
+
+TEST_F(Report, OnePageWithThePicturesOfTheFolder) {
+  writeResults();
+  writePng(Image(4, 4, 3), folder_ / "cells_snow_steep.png");
+  const std::string page = folder_ / "page.html";
+  const ProcessResult result = runGlintmark({"report", folder_ / "", "-o", page});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("1 figures and 1 pictures"), std::string::npos) << result.out;
+  const std::string html = readTextFile(page);
+  EXPECT_NE(html.find("<a href=\"results.json\">"), std::string::npos);
+  EXPECT_NE(html.find("cells_snow_steep.png"), std::string::npos);
+}
+
+TEST_F(Report, BadInputLeavesNoPage) {
+  const std::string page = folder_ / "page.html";
+  EXPECT_EQ(runGlintmark({"report", folder_ / "missing", "-o", page}).exit_code, 2);
+  const ProcessResult no_results = runGlintmark({"report", folder_ / "", "-o", page});
+  EXPECT_EQ(no_results.exit_code, 2);
+  EXPECT_NE(no_results.err.find("results.json"), std::string::npos) << no_results.err;
+  writeResults();
+  std::string text = readTextFile(folder_ / "results.json");
+  text.insert(text.find("glintmark.results/") + 18, "9");
+  writeFile(folder_ / "results.json", text);
+  EXPECT_EQ(runGlintmark({"report", folder_ / "", "-o", page}).exit_code, 2);
+  EXPECT_FALSE(std::filesystem::exists(page));
+  writeResults();
+  EXPECT_EQ(runGlintmark({"report", folder_ / "", "-o", folder_ / "no/such/page.html"}).exit_code,
+            2);
+}
+
+}  // namespace
+}  // namespace glintmark

@@ -1,0 +1,77 @@
+#include "host/report/html_report.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/report/sample_records.h"
+
+namespace glintmark {
+namespace {
+
+// RFC 4648, section 10.
+TEST(HtmlReport, Base64TestVectors) {
+  EXPECT_EQ(base64(""), "");
+  EXPECT_EQ(base64("f"), "Zg==");
+  EXPECT_EQ(base64("fo"), "Zm8=");
+  EXPECT_EQ(base64("foo"), "Zm9v");
+  EXPECT_EQ(base64("foob"), "Zm9vYg==");
+  EXPECT_EQ(base64("fooba"), "Zm9vYmE=");
+  EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(base64("\xff\xfe\x00" + std::string(1, '\0')).substr(0, 3), "//4");
+}
+
+std::size_t countOf(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+    ++count;
+  return count;
+}
+
+Results sampleResults() {
+  Record timed = sampleRecord("snow/steep", "shading_ms", 42);
+  timed.paper = 2.5;
+  Record broken = sampleRecord("snow/grazing", "shading_ms", 99);
+  broken.valid = false;
+  broken.note = "not valid: <script>alert(1)</script>";
+  return {sampleRun(), {timed, broken, sampleRecord("snow/steep", "raster_ms", 12.5)}};
+}
+
+TEST(HtmlReport, ShowsFactsPaperAndRatio) {
+  const std::string page = htmlReport(sampleResults(), {}, "results.json");
+  EXPECT_TRUE(page.starts_with("<!doctype html>"));
+  EXPECT_NE(page.find("<td>2.50</td><td>42.0</td>"), std::string::npos);
+  EXPECT_NE(page.find("<td>16.8</td>"), std::string::npos);  // 42 / 2.5
+  EXPECT_NE(page.find("cpu-device"), std::string::npos);
+  EXPECT_NE(page.find("99.0!"), std::string::npos);
+  EXPECT_EQ(countOf(page, "<table>"), countOf(page, "</table>"));
+}
+
+TEST(HtmlReport, NothingIsLoadedAndNothingEscapes) {
+  const std::string page = htmlReport(sampleResults(), {}, "results.json");
+  EXPECT_EQ(page.find("src=\"http"), std::string::npos);
+  EXPECT_EQ(page.find("<link"), std::string::npos);
+  EXPECT_EQ(page.find("<script>alert(1)"), std::string::npos);
+  EXPECT_EQ(countOf(page, "<script"), 3u);  // records, Chart.js, ours
+  EXPECT_EQ(countOf(page, "</script>"), 3u);
+  EXPECT_NE(page.find("Some &quot;quoted&quot; processor"), std::string::npos);
+}
+
+TEST(HtmlReport, RecordsCanBeReadBack) {
+  const std::string page = htmlReport(sampleResults(), {}, "results.json");
+  const std::string open = "id=\"records\">";
+  const std::size_t begin = page.find(open) + open.size();
+  const auto json = nlohmann::json::parse(page.substr(begin, page.find("</script>") - begin));
+  ASSERT_EQ(json.size(), 3u);
+  EXPECT_EQ(json[1]["note"], "not valid: <script>alert(1)</script>");
+}
+
+TEST(HtmlReport, PicturesAreInside) {
+  const ReportPicture picture{"cells & more.png", "foobar"};
+  const std::string page = htmlReport(sampleResults(), {&picture, 1}, "results.json");
+  EXPECT_NE(page.find("data:image/png;base64,Zm9vYmFy"), std::string::npos);
+  EXPECT_NE(page.find("cells &amp; more.png"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace glintmark
