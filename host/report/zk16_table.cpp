@@ -4,50 +4,10 @@
 
 #include <algorithm>
 
+#include "host/report/case_records.h"
 #include "host/report/text_table.h"
 
 namespace glintmark {
-namespace {
-
-// The records of one case, by metric.
-class CaseRecords {
- public:
-  CaseRecords(std::span<const Record> records, const std::string& name)
-      : records_(records), name_(name) {}
-
-  const Record* find(std::string_view metric) const {
-    const auto found = std::ranges::find_if(records_, [&](const Record& record) {
-      return record.case_ == name_ && record.metric == metric;
-    });
-    return found == records_.end() ? nullptr : &*found;
-  }
-  /// The median as a short number, "-" if it was not measured, with "!" if it is not valid.
-  std::string text(std::string_view metric) const {
-    const Record* record = find(metric);
-    if (record == nullptr) return "-";
-    return compactNumber(record->value.median) + (record->valid ? "" : "!");
-  }
-  /// The same without digits after the point.
-  std::string count(std::string_view metric) const {
-    const Record* record = find(metric);
-    return record == nullptr ? "-" : fmt::format("{:.0f}", record->value.median);
-  }
-
- private:
-  std::span<const Record> records_;
-  std::string name_;
-};
-
-std::vector<std::string> caseNames(std::span<const Record> records) {
-  std::vector<std::string> names;
-  for (const Record& record : records) {
-    if (std::ranges::find(names, record.case_) == names.end()) names.push_back(record.case_);
-  }
-  return names;
-}
-
-}  // namespace
-
 std::optional<double> zk16PaperMs(std::string_view scene, std::string_view view) {
   const auto row = std::ranges::find(kZk16Table1, scene, &Zk16PaperRow::scene);
   if (row == kZk16Table1.end()) return std::nullopt;

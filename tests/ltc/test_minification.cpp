@@ -1,0 +1,160 @@
+// Whole frames under area lights: distance, switches, ground truth.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/core/error.h"
+#include "host/filter/normal_map_generators.h"
+#include "host/frame/effects.h"
+#include "host/frame/ground_truth.h"
+#include "tests/frame/test_scenes.h"
+#include "tests/glint/pixel_harness.h"
+#include "tests/ltc/area_light_harness.h"
+
+namespace glintmark {
+namespace {
+
+constexpr int kWidth_px = 48, kHeight_px = 32;
+// Mean and truth are compared over a frame whose light is even, so that pixels average.
+constexpr int kTruthSpp = 512;
+
+// A floor of bumps that is lit from the side by a lamp as long as the floor.
+Scene bumpyScene(bool mapped) {
+  Scene scene;
+  Material material;
+  material.name = "metal";
+  material.has_glints = false;
+  material.ggx = true;
+  material.glint.alpha_g = material.glint.alpha_l = {0.05f, 0.05f};
+  material.glint.intensity = 1;
+  material.glint.f0 = {1, 1, 1, 0};
+  if (mapped) {
+    NormalMapRecipe recipe;
+    recipe.kind = "bumps";
+    recipe.size_px = 128;
+    recipe.height_scale = 0.6;
+    material.normal_map =
+        NormalMapSource{std::make_shared<const NormalMap>(generateNormalMap(recipe))};
+  }
+  scene.materials = {material};
+  addFloor(scene, -8, 8, 0);
+  AreaLight lamp;
+  lamp.vertices = rectangleVertices({0, 6, -40}, {0, 0, 1}, {0, 1, 0}, {200, 10});
+  scene.area_lights = {lamp};
+  return scene;
+}
+
+ShadingOptions smallFrame() {
+  ShadingOptions options;
+  options.width_px = kWidth_px;
+  options.height_px = kHeight_px;
+  options.lanes = 16;
+  return options;
+}
+
+Image shaded(const Scene& scene, const View& view, ShadingOptions options) {
+  FrameRenderer renderer(KernelBench::shared().device, scene, view, options, 2);
+  renderer.prepare();
+  renderer.shade();
+  return renderer.readRadiance();
+}
+
+double meanOf(const Image& image) {
+  double sum = 0;
+  for (std::size_t i = 0; i < image.pixels.size(); i += 4) sum += image.pixels[i];
+  return sum / (static_cast<double>(image.pixels.size()) / 4);
+}
+
+// The texels under a pixel grow from 2 to 512 as uvs are scaled up; the light stays as it is.
+TEST(Minification, MultiScaleKeepsItsErrorAndTheOriginalDoesNot) {
+  std::vector<double> original_error, exact_error;
+  for (const double texels_per_px : {2.0, 16.0, 128.0, 512.0}) {
+    Scene scene = bumpyScene(true);
+    const View view = lookingDown(30, 3);
+    // A pixel in the middle is 3 * 2 tan(10 deg) / kHeight_px wide.
+    const double pixel = 3 * 2 * std::tan(0.1745) / kHeight_px;
+    for (glm::dvec2& uv : scene.mesh.uvs) uv *= texels_per_px / 128 / pixel;
+    const TruthImages truth =
+        renderTruth(KernelBench::shared().device, scene, view, smallFrame(), kTruthSpp, {}, 2);
+    const double exact_mean = meanOf(truth.mean);
+    ASSERT_GT(exact_mean, 0.01);
+    ShadingOptions options = smallFrame();
+    options.ltc_method = LtcMethod::kOriginal;
+    original_error.push_back(std::abs(meanOf(shaded(scene, view, options)) / exact_mean - 1));
+    options.ltc_method = LtcMethod::kExact;
+    exact_error.push_back(std::abs(meanOf(shaded(scene, view, options)) / exact_mean - 1));
+  }
+  for (std::size_t i = 1; i < exact_error.size(); ++i)
+    EXPECT_LT(exact_error[i], exact_error[0] + 0.15) << "step " << i;
+  EXPECT_GT(original_error.back(), 2 * exact_error.back());
+  EXPECT_GT(original_error.back(), original_error.front());
+}
+
+TEST(AreaLightFrame, SmoothFloorIsTheMonteCarloTruth) {
+  const Scene scene = bumpyScene(false);
+  const View view = lookingDown(30);
+  const TruthImages truth =
+      renderTruth(KernelBench::shared().device, scene, view, smallFrame(), kTruthSpp, {}, 2);
+  const Image image = shaded(scene, view, smallFrame());
+  EXPECT_NEAR(meanOf(image) / meanOf(truth.mean), 1, 0.03) << "the fit's error";
+}
+
+TEST(AreaLightFrame, DiffuseIsTheMonteCarloTruthWithinItsStandardError) {
+  Scene scene = bumpyScene(false);
+  scene.materials[0].glint.intensity = 0;
+  scene.materials[0].glint.albedo = {0.5f, 0.25f, 0.125f, 0};
+  scene.area_lights[0].vertices = rectangleVertices({0, 2, -2}, {0, -1, 1}, {0, 1, 0}, {2, 1});
+  const View view = lookingDown(60);
+  const TruthImages truth =
+      renderTruth(KernelBench::shared().device, scene, view, smallFrame(), kTruthSpp, {}, 2);
+  const Image image = shaded(scene, view, smallFrame());
+  int outside = 0;
+  for (std::size_t i = 0; i < image.pixels.size() / 4; ++i) {
+    const double error = std::abs(image.pixels[4 * i] - truth.mean.pixels[4 * i]);
+    outside += error > 4 * truth.standard_error.pixels[3 * i] + 1e-5;
+  }
+  EXPECT_LE(outside, kWidth_px * kHeight_px / 200) << "four standard errors, heavy tails";
+}
+
+TEST(AreaLightFrame, ScenesDecideTheSwitches) {
+  Scene scene = bumpyScene(true);
+  KernelConfig config = configFor(scene.materials[0], scene, smallFrame(), 16);
+  EXPECT_TRUE(config.ltc && config.ggx && config.normal_map);
+  EXPECT_FALSE(config.light_texture || config.clipless || config.diffuse);
+  EXPECT_EQ(config.light_vertices, 4);
+  EXPECT_EQ(config.ltc_method, LtcMethod::kExact);
+  EXPECT_TRUE(config.planes.has(Plane::kDepth));
+  scene.area_lights[0].texture = paintLightTexture("checker", 16);
+  EXPECT_TRUE(configFor(scene.materials[0], scene, smallFrame(), 16).light_texture);
+  scene.area_lights.clear();
+  config = configFor(scene.materials[0], scene, smallFrame(), 16);
+  EXPECT_FALSE(config.ltc || config.ggx || config.light_texture);
+  EXPECT_FALSE(config.planes.has(Plane::kDepth));
+}
+
+TEST(AreaLightFrame, LanesAgreeBitForBitWithMapsAndPictures) {
+  Scene scene = bumpyScene(true);
+  scene.area_lights[0].texture = paintLightTexture("panes", 64);
+  scene.materials[0].glint.albedo = {0.2f, 0.2f, 0.2f, 0};
+  const View view = lookingDown(30);
+  ShadingOptions options = smallFrame();
+  const Image wide = shaded(scene, view, options);
+  for (const float value : wide.pixels) ASSERT_TRUE(std::isfinite(value) && value >= 0);
+  options.lanes = 1;
+  EXPECT_EQ(shaded(scene, view, options).pixels, wide.pixels);
+}
+
+TEST(AreaLightFrame, PictureOfOneColourIsThatColour) {
+  Scene scene = bumpyScene(false);
+  const View view = lookingDown(30);
+  const Image plain = shaded(scene, view, smallFrame());
+  scene.area_lights[0].texture = Image(37, 21, 3);
+  std::ranges::fill(scene.area_lights[0].texture.pixels, 0.5f);
+  const Image textured = shaded(scene, view, smallFrame());
+  for (std::size_t i = 0; i < plain.pixels.size(); i += 4)
+    EXPECT_NEAR(textured.pixels[i], 0.5f * plain.pixels[i], 1e-5f + 1e-4f * plain.pixels[i]);
+}
+
+}  // namespace
+}  // namespace glintmark
