@@ -29,6 +29,9 @@ constexpr double kFirstColumn = 0.2;
 constexpr LtcSampleCounts kAlbedoSamples = {
     .lobe_radial = 128, .lobe_azimuth = 48, .hemisphere_radial = 96, .hemisphere_azimuth = 64};
 
+// The last digits are the cubature's anyway.
+constexpr MinimizeLimits kLimits = {.iterations = 50, .least_gain = 1e-8};
+
 using Parameters = std::array<double, 4>;
 
 // Minimisation in variables scaled to the lobe: turning it by its width is as large a step as
@@ -61,11 +64,14 @@ class ScaledProblem {
   double tilt_unit_;
 };
 
-// The lobe of another roughness in the same direction.
-LtcLobe scaledLobe(const LtcLobe& lobe, double factor) {
+// What a lobe becomes at `factor` times the roughness: as much wider, and off the mirrored
+// direction by that factor squared.
+LtcLobe scaledLobe(const LtcLobe& lobe, double factor, double cos_theta) {
+  const double mirror_rad = -std::acos(cos_theta);
   LtcLobe scaled = lobe;
   scaled.log_width_x += std::log(factor);
   scaled.log_width_y += std::log(factor);
+  scaled.tilt_rad = mirror_rad + (lobe.tilt_rad - mirror_rad) * factor * factor;
   return scaled;
 }
 
@@ -100,7 +106,7 @@ class TableFit {
     for (int x = size_ - 1; x > 0; --x) {
       start = fitLtcLobe(options_.ndf, ltcFitAlpha(x, size_), cosine, {&start, 1}, y == 0);
       lobe(x, y) = start;
-      start = scaledLobe(start, ltcFitAlpha(x - 1, size_) / ltcFitAlpha(x, size_));
+      start = scaledLobe(start, ltcFitAlpha(x - 1, size_) / ltcFitAlpha(x, size_), cosine);
     }
     rowDone();
   }
@@ -109,35 +115,46 @@ class TableFit {
     const auto at = [&](int x, int row) {
       return before[static_cast<std::size_t>(row) * size_ + x];
     };
+    const double cosine = ltcRowCosine(y, size_);
     for (int x = 1; x < size_; ++x) {
-      const double alpha = ltcFitAlpha(x, size_), cosine = ltcRowCosine(y, size_);
+      const double alpha = ltcFitAlpha(x, size_);
       std::vector<LtcLobe> starts = {at(x, y)};
       for (const int from : {x - 1, x + 1}) {
         if (y == 0 || from < 1 || from >= size_) continue;
-        starts.push_back(scaledLobe(at(from, y), alpha / ltcFitAlpha(from, size_)));
+        starts.push_back(scaledLobe(at(from, y), alpha / ltcFitAlpha(from, size_), cosine));
       }
       for (const int from : {y - 1, y + 1}) {
         if (from >= 1 && from < size_) starts.push_back(at(x, from));
       }
       lobe(x, y) = fitLtcLobe(options_.ndf, alpha, cosine, starts, y == 0);
     }
-    // The limit of alpha -> 0: a lobe as wide as alpha times something.
-    lobe(0, y) = scaledLobe(lobe(1, y), ltcFitAlpha(0, size_) / ltcFitAlpha(1, size_));
+    // The limit of alpha -> 0: a lobe as wide as alpha times something. At the horizon it is not,
+    // there its width across goes with alpha squared.
+    const double factor = ltcFitAlpha(0, size_) / ltcFitAlpha(1, size_);
+    lobe(0, y) = scaledLobe(lobe(1, y), factor, cosine);
+    if (cosine <= 0) {
+      LtcLobe start = lobe(0, y);
+      start.log_width_y += std::log(factor);
+      lobe(0, y) = fitLtcLobe(options_.ndf, ltcFitAlpha(0, size_), cosine, {&start, 1}, false);
+    }
     rowDone();
   }
 
   void storeRow(LtcTable& table, int y) {
+    const double cosine = ltcRowCosine(y, size_);
     for (int x = 0; x < size_; ++x) {
       const double alpha = ltcFitAlpha(x, size_);
-      const LtcSamples samples =
-          makeLtcSamples(options_.ndf, alpha, ltcRowCosine(y, size_), lobe(x, y), kAlbedoSamples);
+      LtcCell cell{.albedo = 1, .schlick_albedo = std::pow(1 - cosine, 5)};  // of a mirror
+      if (x > 0) {
+        const LtcSamples samples =
+            makeLtcSamples(options_.ndf, alpha, cosine, lobe(x, y), kAlbedoSamples);
+        cell.albedo = std::min(samples.albedo, 1.0);
+        cell.schlick_albedo = samples.schlick_albedo;
+      }
       const double mass = reference::ltcMassAboveHorizon(ltcInverseMatrix(lobe(x, y)));
-      const double albedo = std::min(samples.albedo, 1.0);
-      LtcCell cell{.scale = albedo / mass,
-                   .schlick = samples.schlick_albedo / mass,
-                   .albedo = albedo,
-                   .schlick_albedo = samples.schlick_albedo};
-      storeLobe(lobe(x, y), alpha, ltcRowCosine(y, size_), cell);
+      cell.scale = cell.albedo / mass;
+      cell.schlick = cell.schlick_albedo / mass;
+      storeLobe(lobe(x, y), alpha, cosine, cell);
       table.setCell(x, y, cell);
     }
     rowDone();
@@ -174,7 +191,7 @@ LtcLobe fitLtcLobe(reference::Ndf ndf, double alpha, double cos_theta,
   for (const LtcLobe* start : {&starts.front(), rival}) {
     if (start == nullptr) continue;
     const ScaledProblem problem(samples, *start, symmetric);
-    const Minimum<4> found = minimize<4>(problem, problem.scaled(*start));
+    const Minimum<4> found = minimize<4>(problem, problem.scaled(*start), kLimits);
     if (found.value >= least) continue;
     least = found.value;
     best = problem.lobe(found.at);

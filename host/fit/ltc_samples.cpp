@@ -12,19 +12,26 @@ namespace {
 // The proposal is this much wider than the lobe, so that weights stay small beside its peak.
 constexpr double kWiden = 1.4;
 
-// Grid point (i, j) of the half disc under a hemisphere.
-glm::dvec3 cosineDirection(int i, int j, int radial, int azimuth) {
-  const double radius_sq = (i + 0.5) / radial;
-  const double angle = std::numbers::pi * (j + 0.5) / azimuth;
-  const double radius = std::sqrt(radius_sq);
-  return {radius * std::cos(angle), radius * std::sin(angle), std::sqrt(1 - radius_sq)};
+// Point (i, j) of a grid in the unit square, the second axis half a turn. Each column is shifted by
+// its own share of a row, so that no two samples of a round lobe fall on one ring: an absolute
+// difference has a kink wherever it vanishes at a sample, and rings would add up to large ones.
+struct GridPoint {
+  double share, angle_rad;
+};
+GridPoint gridPoint(int i, int j, int rows, int columns) {
+  constexpr double kGolden = 0.6180339887498949;
+  const double shift = (j + 0.5) * kGolden;
+  return {(i + shift - std::floor(shift)) / rows, std::numbers::pi * (j + 0.5) / columns};
 }
 
-glm::dvec3 uniformDirection(int i, int j, int radial, int azimuth) {
-  const double z = (i + 0.5) / radial;
-  const double angle = std::numbers::pi * (j + 0.5) / azimuth;
-  const double radius = std::sqrt(1 - z * z);
-  return {radius * std::cos(angle), radius * std::sin(angle), z};
+glm::dvec3 cosineDirection(const GridPoint& p) {
+  const double radius = std::sqrt(p.share);
+  return {radius * std::cos(p.angle_rad), radius * std::sin(p.angle_rad), std::sqrt(1 - p.share)};
+}
+
+glm::dvec3 uniformDirection(const GridPoint& p) {
+  const double radius = std::sqrt(1 - p.share * p.share);
+  return {radius * std::cos(p.angle_rad), radius * std::sin(p.angle_rad), p.share};
 }
 
 class SampleMaker {
@@ -77,13 +84,14 @@ LtcSamples makeLtcSamples(reference::Ndf ndf, double alpha, double cos_theta,
   SampleMaker maker(ndf, alpha, cos_theta, inverse, counts);
   for (int i = 0; i < counts.lobe_radial; ++i) {
     for (int j = 0; j < counts.lobe_azimuth; ++j) {
-      maker.add(
-          glm::normalize(forward * cosineDirection(i, j, counts.lobe_radial, counts.lobe_azimuth)));
+      maker.add(glm::normalize(
+          forward * cosineDirection(gridPoint(i, j, counts.lobe_radial, counts.lobe_azimuth))));
     }
   }
   for (int i = 0; i < counts.hemisphere_radial; ++i) {
     for (int j = 0; j < counts.hemisphere_azimuth; ++j) {
-      maker.add(uniformDirection(i, j, counts.hemisphere_radial, counts.hemisphere_azimuth));
+      maker.add(
+          uniformDirection(gridPoint(i, j, counts.hemisphere_radial, counts.hemisphere_azimuth)));
     }
   }
   return std::move(maker.samples);

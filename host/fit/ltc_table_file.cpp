@@ -96,13 +96,16 @@ LtcTable parseLtcTable(std::string_view bytes, const std::string& name) {
 }
 
 LtcTable loadLtcTable(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) {
+    throw Error(fmt::format("no LTC table {}; `glintmark fit ltc` writes one", path.string()));
+  }
   std::ifstream file(path, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
   if (!file) {
     throw Error(
         fmt::format("cannot read the LTC table {}: {}", path.string(), std::strerror(errno)));
   }
-  return parseLtcTable(bytes, path.string());
+  return parseLtcTable(std::string{std::istreambuf_iterator<char>(file), {}}, path.string());
 }
 
 LtcTable shippedLtcTable(reference::Ndf ndf) {

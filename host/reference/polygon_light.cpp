@@ -8,10 +8,12 @@
 namespace glintmark::reference {
 namespace {
 
-// Triangles of the cubature are halved until no side spans a larger angle in the space of the
-// cosine lobe, where a BRDF varies over about one radian.
-constexpr double kLargestSide_rad = 0.15;
-constexpr int kDeepest = 40;
+// Triangles of the cubature are halved until no side is longer than this: in units of the lobe's
+// widths plus the distance from its centre, on the plane on which it is a round bump, and in radian
+// away from it. Tails fall like powers of the distance, so that both are as smooth.
+constexpr double kLongestSide = 0.15;
+constexpr double kLeastPlaneCosine = 1e-3;  // to that plane's axis; it stands for all beyond
+constexpr int kDeepest = 100;
 
 const glm::dvec3 kUp{0, 0, 1};
 
@@ -33,10 +35,6 @@ double edgeSum(std::span<const glm::dvec3> vertices) {
   return sum;
 }
 
-struct Triangle {
-  glm::dvec3 a, b, c;
-};
-
 // Radon's seven points, exact to degree five, over u, v >= 0, u + v <= 1; weights sum to 1.
 struct CubaturePoint {
   double u, v, weight;
@@ -54,34 +52,60 @@ std::array<CubaturePoint, 7> radonPoints() {
            {far, 1 - 2 * far, far_weight}}};
 }
 
+// Integrates over spherical triangles. Only the directions of their corners matter; corners are
+// kept at unit length in the space of the cosine lobe, so that sides are halved there.
 template <typename Integrand>
-double integrateTriangle(const Triangle& t, const glm::dmat3& inverse, const Integrand& integrand,
-                         int depth) {
-  const glm::dvec3 a = inverse * t.a, b = inverse * t.b, c = inverse * t.c;
-  const double ab = angleBetween(a, b), bc = angleBetween(b, c), ca = angleBetween(c, a);
-  const double longest = std::max({ab, bc, ca});
-  if (longest > kLargestSide_rad && depth < kDeepest) {
-    // Halved across its longest side, at the middle of the angle it spans.
-    const auto split = [&](const glm::dvec3& p, const glm::dvec3& q, const glm::dvec3& rest) {
-      const double p_length = glm::length(inverse * p), q_length = glm::length(inverse * q);
-      const glm::dvec3 middle = (p * q_length + q * p_length) / (p_length + q_length);
-      return integrateTriangle({p, middle, rest}, inverse, integrand, depth + 1) +
-             integrateTriangle({middle, q, rest}, inverse, integrand, depth + 1);
-    };
-    if (longest == ab) return split(t.a, t.b, t.c);
-    return longest == bc ? split(t.b, t.c, t.a) : split(t.c, t.a, t.b);
+class TriangleCubature {
+ public:
+  TriangleCubature(const glm::dmat3& inverse, const Integrand& integrand)
+      : inverse_(inverse), integrand_(integrand) {}
+
+  double integrate(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
+                   int depth = 0) const {
+    const glm::dvec3 p = scaled(a), q = scaled(b), r = scaled(c);
+    const double pq = side(p, q), qr = side(q, r), rp = side(r, p);
+    const double longest = std::max({pq, qr, rp});
+    if (longest <= kLongestSide || depth >= kDeepest) return sevenPoints(p, q, r);
+    if (longest == pq) return halved(p, q, r, depth);
+    return longest == qr ? halved(q, r, p, depth) : halved(r, p, q, depth);
   }
-  static const std::array<CubaturePoint, 7> kPoints = radonPoints();
-  // Solid angle element: distance of the plane over the cube of the distance of the point.
-  const double volume = 0.5 * glm::dot(t.a, glm::cross(t.b, t.c));
-  double sum = 0;
-  for (const CubaturePoint& point : kPoints) {
-    const glm::dvec3 p = t.a + point.u * (t.b - t.a) + point.v * (t.c - t.a);
-    const double length = glm::length(p);
-    sum += point.weight * integrand(p / length) / (length * length * length);
+
+ private:
+  glm::dvec3 scaled(const glm::dvec3& p) const { return p / glm::length(inverse_ * p); }
+
+  glm::dvec2 onPlane(const glm::dvec3& p) const {
+    const glm::dvec3 lobe = inverse_ * p;
+    return glm::dvec2(lobe) / std::max(lobe.z, kLeastPlaneCosine);
   }
-  return sum * volume;
-}
+
+  double side(const glm::dvec3& p, const glm::dvec3& q) const {
+    const glm::dvec2 on_plane_p = onPlane(p), on_plane_q = onPlane(q);
+    const double nearest = std::min(glm::length(on_plane_p), glm::length(on_plane_q));
+    return std::max({angleBetween(inverse_ * p, inverse_ * q),
+                     glm::length(on_plane_p - on_plane_q) / (1 + nearest),
+                     0.5 * angleBetween(p, q)});
+  }
+
+  double halved(const glm::dvec3& p, const glm::dvec3& q, const glm::dvec3& rest, int depth) const {
+    const glm::dvec3 middle = p + q;
+    return integrate(p, middle, rest, depth + 1) + integrate(middle, q, rest, depth + 1);
+  }
+
+  double sevenPoints(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) const {
+    static const std::array<CubaturePoint, 7> kPoints = radonPoints();
+    double sum = 0;
+    for (const CubaturePoint& point : kPoints) {
+      const glm::dvec3 p = a + point.u * (b - a) + point.v * (c - a);
+      const double length = glm::length(p);
+      sum += point.weight * integrand_(p / length) / (length * length * length);
+    }
+    // Solid angle element: distance of the plane times its area, over the cube of the distance.
+    return sum * 0.5 * glm::dot(a, glm::cross(b, c));
+  }
+
+  glm::dmat3 inverse_;
+  const Integrand& integrand_;
+};
 
 }  // namespace
 
@@ -129,9 +153,10 @@ double microfacetOverPolygon(Ndf ndf, const glm::dvec3& view, double alpha, doub
     const double schlick = std::pow(1 - std::min(view_dot_half, 1.0), 5);
     return microfacetTimesCosine(ndf, light, view, alpha) * (f0 + (1 - f0) * schlick);
   };
+  const TriangleCubature cubature(inverse, integrand);
   double sum = 0;
   for (std::size_t i = 1; i + 1 < above.size(); ++i) {
-    sum += integrateTriangle({above[0], above[i], above[i + 1]}, inverse, integrand, 0);
+    sum += cubature.integrate(above[0], above[i], above[i + 1]);
   }
   return sum;
 }

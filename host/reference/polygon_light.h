@@ -33,7 +33,8 @@ double ltcOverPolygon(const glm::dmat3& inverse, std::span<const glm::dvec3> ver
 /// What the microfacet surface reflects towards `view` of unit radiance: the integral of BRDF times
 /// cosine, times Schlick's Fresnel term of reflectance f0 (1: none). By cubature over triangles
 /// that are small in the space of the cosine lobe; `inverse` is any matrix that makes the BRDF's
-/// lobe roughly a cosine, such as a fitted one. Good to about 1e-5 of the largest value possible.
+/// lobe roughly a cosine, such as a fitted one. Good to about 1e-5, at grazing views of lobes
+/// narrower than 0.03 to 1e-4.
 double microfacetOverPolygon(Ndf ndf, const glm::dvec3& view, double alpha, double f0,
                              const glm::dmat3& inverse, std::span<const glm::dvec3> vertices);
 

@@ -14,7 +14,7 @@ using Polygon = std::vector<glm::dvec3>;
 
 // Sums of a few terms of size one in double precision.
 constexpr double kRounding = 1e-13;
-// microfacetOverPolygon promises this; Boost is asked for less.
+// microfacetOverPolygon promises 1e-5; Boost is asked for less.
 constexpr double kCubatureError = 2e-5;
 
 // A square of half side `half` at `centre`, facing the receiver, right-handed about +z.
