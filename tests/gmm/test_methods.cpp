@@ -1,0 +1,227 @@
+// Whole frames by every method: lanes, limits, hard maps, and what absent switches leave behind.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <stdio.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include "host/filter/normal_map_generators.h"
+#include "host/frame/effects.h"
+#include "host/frame/ground_truth.h"
+#include "host/report/metrics.h"
+#include "tests/frame/test_scenes.h"
+#include "tests/glint/pixel_harness.h"
+
+namespace glintmark {
+namespace {
+
+constexpr int kSize_px = 48;
+/// Where a pixel is much smaller than a texel nothing is averaged, and all methods show the base
+/// lobe around the interpolated normal; what is left is the variance between texels (not of gmm),
+/// the difference of cos^n and Beckmann (fournier) and of slopes and normals (lean). Relative to
+/// the mean radiance.
+constexpr double kMagnifiedTolerance = 0.02;
+constexpr double kExactTolerance = 2e-3;
+/// Halves keep a lobe's weight, mean and deviation to 2^-11.
+constexpr double kHalfTolerance = 5e-3;
+constexpr int kTruthSpp = 64;
+
+constexpr NormalMethod kAllMethods[] = {NormalMethod::kMip,      NormalMethod::kFixed,
+                                        NormalMethod::kToksvig,  NormalMethod::kLean,
+                                        NormalMethod::kFournier, NormalMethod::kGmm};
+
+struct Setup {
+  Scene scene;
+  View view = lookingDown(60, 3);
+  ShadingOptions options;
+  std::shared_ptr<NormalTextures> textures =
+      std::make_shared<NormalTextures>(KernelBench::shared().device);
+
+  explicit Setup(NormalMap map) {
+    Material material;
+    material.name = "metal";
+    material.has_glints = false;
+    material.glint.alpha_g = {0.3f, 0.3f};
+    material.glint.alpha_l = {0.1f, 0.1f};
+    material.glint.density = 1;
+    material.glint.intensity = 1;
+    material.glint.f0 = {0.9f, 0.8f, 0.7f, 0};
+    material.glint.albedo = {0.1f, 0.1f, 0.1f, 0};
+    material.normal_map = {std::make_shared<const NormalMap>(std::move(map)), 4};
+    scene.materials = {material};
+    addFloor(scene, -8, 8, 0);
+    for (const float x : {-0.5f, 0.4f}) {
+      ConeLight light{};
+      light.direction = {x, 0.75f, -0.5f, 0};
+      light.irradiance = {2, 2, 2, 0};
+      scene.lights.push_back(light);
+    }
+    options.width_px = options.height_px = kSize_px;
+  }
+
+  Image render(NormalMethod method, int lanes = 0, bool half = false) const {
+    ShadingOptions chosen = options;
+    chosen.normal_method = method;
+    chosen.lanes = lanes;
+    chosen.half_texels = half;
+    FrameRenderer renderer(KernelBench::shared().device, scene, view, chosen, 1, textures);
+    renderer.prepare();
+    renderer.shade();
+    return renderer.readRadiance();
+  }
+  TruthImages truth() const {
+    return renderTruth(KernelBench::shared().device, scene, view, options, kTruthSpp, {}, 1,
+                       textures);
+  }
+};
+
+NormalMap bumps(int size_px) {
+  return generateNormalMap({.kind = "bumps", .size_px = size_px, .seed = 3});
+}
+
+// Mean of the absolute differences over the mean of the reference.
+double relativeDifference(const Image& image, const Image& reference) {
+  double sum = 0, total = 0;
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    sum += std::abs(static_cast<double>(image.pixels[i]) - reference.pixels[i]);
+    total += reference.pixels[i];
+  }
+  return sum / total;
+}
+
+bool isSane(const Image& image) {
+  return std::ranges::all_of(image.pixels, [](float v) { return std::isfinite(v) && v >= 0; });
+}
+
+class Methods : public testing::TestWithParam<NormalMethod> {};
+
+TEST_P(Methods, OneLaneAndSixteenGiveTheSameBits) {
+  const Setup setup(bumps(64));
+  EXPECT_EQ(setup.render(GetParam(), 1).pixels, setup.render(GetParam(), 16).pixels);
+}
+
+TEST_P(Methods, MagnifiedMapsAgreeWithTheTruth) {
+  Setup setup(bumps(32));
+  setup.view = lookingDown(60, 0.05);
+  const TruthImages truth = setup.truth();
+  EXPECT_LT(relativeDifference(setup.render(GetParam()), truth.mean), kMagnifiedTolerance);
+}
+
+TEST_P(Methods, HardMapsStayFinite) {
+  NormalMap strip = bumps(16), lone = bumps(1), odd = bumps(37), steep = bumps(16);
+  strip.height_px = 1;
+  strip.normals.resize(16);
+  for (std::size_t i = 0; i < steep.normals.size(); ++i)
+    steep.normals[i] = glm::normalize(glm::vec3(i % 2 == 0 ? 1 : -1, i % 3 == 0 ? 1 : 0, 1e-3f));
+  for (const NormalMap& map : {strip, lone, odd, steep, generateNormalMap({"flat", 4})})
+    for (const double distance : {0.5, 6.0}) {
+      Setup setup(map);
+      setup.view = lookingDown(8, distance);
+      const Image image = setup.render(GetParam());
+      EXPECT_TRUE(isSane(image)) << map.width_px << "x" << map.height_px << " " << map.name;
+    }
+}
+
+TEST_P(Methods, FlatMapsAreTheMeshItself) {
+  Setup mapped(generateNormalMap({"flat", 8}));
+  Setup bare = mapped;
+  bare.scene.materials[0].normal_map.reset();
+  EXPECT_LT(relativeDifference(mapped.render(GetParam()), bare.render(GetParam())),
+            GetParam() == NormalMethod::kFournier ? kMagnifiedTolerance : kExactTolerance);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Methods, testing::ValuesIn(kAllMethods));
+
+TEST(Mixtures, HalvesDoNotCancel) {
+  const Setup setup(bumps(64));
+  const Image whole = setup.render(NormalMethod::kGmm);
+  EXPECT_LT(relativeDifference(setup.render(NormalMethod::kGmm, 0, true), whole), kHalfTolerance);
+}
+
+TEST(Mixtures, AreNearerToTheTruthThanOtherFilters) {
+  Setup setup(generateNormalMap({.kind = "disk", .size_px = 128}));
+  setup.view = lookingDown(60, 4);
+  const Image truth = setup.truth().mean;
+  const double gmm = relativeDifference(setup.render(NormalMethod::kGmm), truth);
+  for (const NormalMethod method :
+       {NormalMethod::kMip, NormalMethod::kFixed, NormalMethod::kToksvig, NormalMethod::kLean})
+    EXPECT_LT(gmm, relativeDifference(setup.render(method), truth)) << static_cast<int>(method);
+}
+
+TEST(Truth, BatchesAddUpToTheSameSamples) {
+  Setup setup(bumps(32));
+  setup.options.truth = true;
+  const auto render = [&](std::initializer_list<std::uint32_t> counts) {
+    FrameRenderer renderer(KernelBench::shared().device, setup.scene, setup.view, setup.options, 1,
+                           setup.textures);
+    renderer.prepare();
+    std::uint32_t done = 0;
+    for (const std::uint32_t count : counts) {
+      renderer.addTruthSamples(done, count);
+      done += count;
+    }
+    return renderer.readRadiance();
+  };
+  EXPECT_LT(relativeDifference(render({5, 11}), render({16})), 1e-6);
+}
+
+TEST(Truth, StandardErrorCoversTheDistanceToAFinerTruth) {
+  const Setup setup(bumps(64));
+  Device& device = KernelBench::shared().device;
+  const auto render = [&](int spp) {
+    return renderTruth(device, setup.scene, setup.view, setup.options, spp, {}, 1, setup.textures);
+  };
+  const TruthImages coarse = render(16), fine = render(512);
+  std::size_t far = 0, count = coarse.standard_error.pixels.size() / 3;
+  for (std::size_t i = 0; i < count; ++i)
+    far += std::abs(coarse.mean.pixels[4 * i] - fine.mean.pixels[4 * i]) >
+           3 * coarse.standard_error.pixels[3 * i] + 1e-5f;
+  EXPECT_LT(static_cast<double>(far), 0.02 * static_cast<double>(count));
+}
+
+// shade.cl after the preprocessor.
+std::string preprocessed(KernelConfig config) {
+  config.planes = PlaneMask::all();
+  const std::string command = fmt::format("g++ -E -P -x c -I '{0}' {1} '{0}/shade.cl' 2>&1",
+                                          kernelFolder(), buildOptions(config));
+  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
+  std::string text;
+  char chunk[4096];
+  while (pipe && fgets(chunk, sizeof chunk, pipe.get())) text += chunk;
+  return text;
+}
+
+TEST(Mixtures, AbsentNormalMapsLeaveNothingBehind) {
+  KernelConfig config;
+  config.glint = config.size_variation = false;
+  config.normal_map = true;
+  config.normal_method = NormalMethod::kGmm;
+  config.lobes = 4;
+  const std::string with = preprocessed(config);
+  config.normal_map = false;
+  config.normal_method = NormalMethod::kMip;
+  config.lobes = 1;
+  const std::string without = preprocessed(config);
+  for (const char* name : {"footprintProbes", "fetchTexels4", "lobeFromMoments", "evaluateLobe"}) {
+    EXPECT_NE(with.find(name), std::string::npos) << name << " was renamed";
+    EXPECT_EQ(without.find(name), std::string::npos) << name;
+  }
+  for (const Plane plane : {Plane::kUFrac, Plane::kDudx}) {
+    EXPECT_FALSE(planesFor(config).has(plane));
+  }
+}
+
+TEST(Mixtures, OnlyTheChosenTextureIsMade) {
+  const Setup setup(bumps(16));
+  setup.render(NormalMethod::kToksvig);
+  const std::size_t means = setup.textures->bytes();
+  EXPECT_EQ(means, (16u * 16 + 8 * 8 + 4 * 4 + 2 * 2 + 1) * sizeof(float4));
+  setup.render(NormalMethod::kMip);
+  EXPECT_EQ(setup.textures->bytes(), means) << "mip reads the same texture";
+}
+
+}  // namespace
+}  // namespace glintmark
