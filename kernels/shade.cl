@@ -6,13 +6,15 @@
 #if LTC
 #include "area_surface.clh"
 #endif
-#include "cone_light.clh"
 #include "pixel.clh"
+#if CONE_LIGHTS
+#include "cone_light.clh"
 #if GLINT
 #include "glint_pixel.clh"
 #endif
 #if NORMAL_MAP
 #include "normal_surface.clh"
+#endif
 #endif
 
 // planes: frame->plane_stride entries each, slots given by the PLANE_* switches. radiance: three
@@ -42,6 +44,12 @@ kernel void shade(global const uint* planes, constant const FrameParams* frame,
 
   const ShadingFrame basis = unpackFrame(loadUint(planes, PLANE_FRAME0 * stride + entry),
                                          loadUint(planes, PLANE_FRAME1 * stride + entry));
+  vfloat3 sum = {(vfloat)(0.0f), (vfloat)(0.0f), (vfloat)(0.0f)};
+#if COUNT_CELLS
+  vint cells = (vint)(0);
+  vmask limited = (vint)(0);
+#endif
+#if CONE_LIGHTS
   const vfloat3 view = viewDirection(loadUint(planes, PLANE_PIXEL * stride + entry), frame, basis);
   const SmithLambda lambda_view = smithLambda(view, material->alpha_g);
 
@@ -54,10 +62,6 @@ kernel void shade(global const uint* planes, constant const FrameParams* frame,
 #if NORMAL_MAP
   const PixelNormals normals = loadNormals(planes, stride, entry, map, map_texels);
 #endif
-  vint cells = (vint)(0);
-  vmask limited = (vint)(0);
-
-  vfloat3 sum = {(vfloat)(0.0f), (vfloat)(0.0f), (vfloat)(0.0f)};
   for (uint i = 0; i < frame->light_count; ++i) {
     constant const LightParams* light = &lights[i];
 #if NORMAL_MAP
@@ -84,12 +88,15 @@ kernel void shade(global const uint* planes, constant const FrameParams* frame,
 #else
       ratio.x = ratio.y = ratio.z = share * inverse;
 #endif
+#if COUNT_CELLS
       cells += lit ? visited : (vint)(0);
       limited = limited | (cut & lit);
+#endif
     }
 #endif
     addLight(lobe, ratio, material, light, &sum);
   }
+#endif
 #if LTC
   const LitPoint point = loadLitPoint(planes, stride, entry, frame, material, basis
 #if NORMAL_MAP

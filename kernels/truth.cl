@@ -9,7 +9,9 @@
 #if LTC
 #include "area_light_truth.clh"
 #endif
+#if CONE_LIGHTS
 #include "cone_light.clh"
+#endif
 #include "hash.clh"
 #include "pixel.clh"
 #if NORMAL_MAP
@@ -93,6 +95,7 @@ WIDE SurfaceSample sampleSurface(const PixelSurface* surface, uint index,
   return s;
 }
 
+#if CONE_LIGHTS
 WIDE vfloat3 shadeSample(const SurfaceSample* sample, constant const FrameParams* frame,
                          constant const GlintMaterial* material, constant const LightParams* lights,
                          constant const float4* taps) {
@@ -108,6 +111,7 @@ WIDE vfloat3 shadeSample(const SurfaceSample* sample, constant const FrameParams
   }
   return sum;
 }
+#endif
 
 #if LTC
 // Where a sample lies, relative to the eye: its ray meets the tangent plane of the pixel's centre,
@@ -158,7 +162,10 @@ kernel void truth(global const uint* planes, constant const FrameParams* frame,
                                                map, normals
 #endif
     );
-    vfloat3 value = shadeSample(&sample, frame, material, lights, taps);
+    vfloat3 value = {(vfloat)(0.0f), (vfloat)(0.0f), (vfloat)(0.0f)};
+#if CONE_LIGHTS
+    value = shadeSample(&sample, frame, material, lights, taps);
+#endif
 #if LTC
     const vfloat3 place = samplePlace(&surface, &sample, depth, frame);
     value = add3(value, sampleAreaLights(sample.frame, place, sample.view, sample.visible, material,

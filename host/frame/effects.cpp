@@ -62,7 +62,8 @@ KernelConfig configFor(const Material& material, const Scene& scene, const Shadi
   const auto& albedo = material.glint.albedo;
   KernelConfig config;
   config.width = lanes;
-  config.glint = material.has_glints && options.glints && !options.truth;
+  config.cone_lights = !scene.lights.empty();
+  config.glint = material.has_glints && options.glints && !options.truth && config.cone_lights;
   config.groove = config.glint && material.has_grooves;
   config.glint_colour = config.glint && material.has_colour;
   config.size_variation = config.glint && material.glint.size_variation > 0;

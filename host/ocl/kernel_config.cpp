@@ -45,11 +45,12 @@ std::string buildOptions(const KernelConfig& config) {
   validate(config);
   std::string options = fmt::format(
       "-D WIDTH={} -D GLINT={:d} -D GROOVE={:d} -D GLINT_COLOUR={:d} -D SIZE_VARIATION={:d} "
-      "-D LIGHT_CONE={:d} -D DIFFUSE={:d} -D COUNT_CELLS={:d} -D GLINT_METHOD={} -D KA={} "
+      "-D CONE_LIGHTS={:d} -D LIGHT_CONE={:d} -D DIFFUSE={:d} -D COUNT_CELLS={:d} -D "
+      "GLINT_METHOD={} -D KA={} "
       "-D GGX={:d}",
       config.width, config.glint, config.groove, config.glint_colour, config.size_variation,
-      config.light_cone, config.diffuse, config.count_cells, static_cast<int>(config.method),
-      config.ka, config.ggx);
+      config.cone_lights, config.light_cone, config.diffuse, config.count_cells,
+      static_cast<int>(config.method), config.ka, config.ggx);
   options += fmt::format(
       " -D NORMAL_MAP={:d} -D NORMAL_METHOD={} -D LOBES={} -D ANISOTROPY={} -D HALF_TEXELS={:d} "
       "-D LTC={:d} -D LTC_METHOD={} -D LIGHT_VERTICES={} -D CLIPLESS={:d} -D LIGHT_TEXTURE={:d} -D "

@@ -29,6 +29,7 @@ struct KernelConfig {
   bool groove = false;
   bool glint_colour = false;
   bool size_variation = true;
+  bool cone_lights = true;  // the scene has cone lights
   bool light_cone = false;  // some light is wider than a point
   bool diffuse = false;
   bool count_cells = false;

@@ -10,7 +10,8 @@ namespace {
 TEST(KernelConfig, DefaultsWriteEverySwitch) {
   EXPECT_EQ(buildOptions({}),
             "-D WIDTH=1 -D GLINT=1 -D GROOVE=0 -D GLINT_COLOUR=0 -D SIZE_VARIATION=1 "
-            "-D LIGHT_CONE=0 -D DIFFUSE=0 -D COUNT_CELLS=0 -D GLINT_METHOD=0 -D KA=16 -D GGX=0 "
+            "-D CONE_LIGHTS=1 -D LIGHT_CONE=0 -D DIFFUSE=0 -D COUNT_CELLS=0 -D GLINT_METHOD=0 -D "
+            "KA=16 -D GGX=0 "
             "-D NORMAL_MAP=0 -D NORMAL_METHOD=0 -D LOBES=1 -D ANISOTROPY=1 -D HALF_TEXELS=0 "
             "-D LTC=0 -D LTC_METHOD=0 -D LIGHT_VERTICES=4 -D CLIPLESS=0 -D LIGHT_TEXTURE=0 -D "
             "MULTISCATTER=0 "
@@ -36,7 +37,8 @@ TEST(KernelConfig, EverySwitchShows) {
   config.multiscatter = Multiscatter::kEon;
   EXPECT_EQ(buildOptions(config),
             "-D WIDTH=16 -D GLINT=0 -D GROOVE=1 -D GLINT_COLOUR=1 -D SIZE_VARIATION=0 "
-            "-D LIGHT_CONE=1 -D DIFFUSE=1 -D COUNT_CELLS=1 -D GLINT_METHOD=1 -D KA=64 -D GGX=1 "
+            "-D CONE_LIGHTS=1 -D LIGHT_CONE=1 -D DIFFUSE=1 -D COUNT_CELLS=1 -D GLINT_METHOD=1 -D "
+            "KA=64 -D GGX=1 "
             "-D NORMAL_MAP=1 -D NORMAL_METHOD=5 -D LOBES=8 -D ANISOTROPY=16 -D HALF_TEXELS=1 "
             "-D LTC=1 -D LTC_METHOD=2 -D LIGHT_VERTICES=8 -D CLIPLESS=1 -D LIGHT_TEXTURE=1 -D "
             "MULTISCATTER=3 "
