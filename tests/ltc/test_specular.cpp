@@ -153,7 +153,7 @@ TEST(Specular, HardCases) {
       {"a line", {{-1, 0, 1}, {1, 0, 1}, {1, 1e-7, 1}, {-1, 1e-7, 1}}},
       {"a speck", {{0, 0, 1}, {1e-5, 0, 1}, {1e-5, 1e-5, 1}, {0, 1e-5, 1}}},
       {"far away", {{1e6, 0, 1e6}, {1e6, 1e3, 1e6}, {1e6, 1e3, 1.001e6}, {1e6, 0, 1.001e6}}},
-      {"a sliver", {{-1e3, 0, 0.1}, {1e3, 0, 0.1}, {1e3, 1e-3, 0.1}}}};
+      {"a sliver", {{-1e3, 0, 0.1}, {1e3, 0, 0.1}, {1e3, 1e-3, 0.1}, {-1e3, 1e-3, 0.1}}}};
   std::vector<HandMadePoint> points;
   for (const double alpha : {0.001, 0.01, 0.1, 1.0})
     for (const double angle_deg : {90.0, 89.9999, 45.0, 1.0, 0.1, -5.0})
