@@ -113,15 +113,18 @@ void writePicture(const std::vector<MeasuredTable>& tables, const std::string& f
   std::vector<MatrixPanel> panels;
   for (const MeasuredTable& table : tables) panels.push_back({table.name, table.nodes.values});
   const LtcErrors& first = tables.front().nodes;
-  writePng(matrixPicture(panels, {.width = first.width,
-                                  .height = first.height,
-                                  .entry_px = std::max(2, 384 / first.width),
-                                  .low = 0,
-                                  .high = 0.7,
-                                  .title = "integral of |LTC - BRDF cos| over the hemisphere",
-                                  .x_label = "sqrt(alpha) 0 to 1",
-                                  .y_label = "sqrt(1 - cos theta) 0 to 1"}),
-           file);
+  writePng(
+      matrixPicture(
+          panels,
+          {.width = first.width,
+           .height = first.height,
+           .entry_px = std::max(2, 384 / first.width),
+           .low = 0,
+           .high = 0.7,
+           .title = "integral over the hemisphere of the absolute difference of LTC and BRDF cos",
+           .x_label = "sqrt(alpha) 0 to 1",
+           .y_label = "sqrt(1 - cos theta) 0 to 1"}),
+      file);
 }
 
 int runFitLtc(const CommonOptions& common, const FitLtcCommand& command) {
@@ -137,7 +140,7 @@ int runFitLtc(const CommonOptions& common, const FitLtcCommand& command) {
   }
   if (!command.output.empty()) writeFile(command.output, serializeLtcTable(table));
   tables.push_back(measure(command.ndf, table));
-  if (!command.compare.empty()) tables.push_back(measure("compared", published));
+  if (!command.compare.empty()) tables.push_back(measure("published", published));
   printSummary(tables);
   if (tables.size() > 1) printComparison(tables[0].nodes, tables[1].nodes);
   if (!command.picture.empty()) writePicture(tables, command.picture);
