@@ -43,12 +43,12 @@ ShadingOptions fullOptions(const BenchRun& run, NormalMethod method) {
   return options;
 }
 
-FrameRenderer makeRenderer(BenchRun& run, const Tan05Scene& scene, const View& view,
-                           const ShadingOptions& options) {
-  FrameRenderer renderer(run.device(), scene.scene, view, options, run.line().common.threads,
-                         scene.textures);
-  renderer.prepare();
-  renderer.shade();
+std::unique_ptr<FrameRenderer> makeRenderer(BenchRun& run, const Tan05Scene& scene,
+                                            const View& view, const ShadingOptions& options) {
+  auto renderer = std::make_unique<FrameRenderer>(run.device(), scene.scene, view, options,
+                                                  run.line().common.threads, scene.textures);
+  renderer->prepare();
+  renderer->shade();
   return renderer;
 }
 
@@ -132,23 +132,23 @@ std::vector<Record> measureTan05Knob(BenchRun& run, const Tan05Scene& scene,
   const View& view = scene.scene.view(kKnobView);
   ShadingOptions full = fullOptions(run, NormalMethod::kGmm);
   knob.apply(full);
-  FrameRenderer renderer = makeRenderer(run, scene, view, full);
+  const auto renderer = makeRenderer(run, scene, view, full);
   Samples times_ms;
-  for (int rep = 0; rep < run.options().reps; ++rep) times_ms.push_back(shadeMs(renderer));
+  for (int rep = 0; rep < run.options().reps; ++rep) times_ms.push_back(shadeMs(*renderer));
 
   Tan05Settings settings = tan05Settings(run);
   knob.apply(settings.shading);
   const TruthImages truth = renderTruth(
       run.device(), scene.scene, view, settings.shading, settings.truth_spp,
       [](int) { stopIfInterrupted(); }, settings.threads, scene.textures);
-  FrameRenderer small = makeRenderer(run, scene, view, settings.shading);
+  const auto small = makeRenderer(run, scene, view, settings.shading);
   const auto display = [&](const Image& image) {
     return toneMap(coveredPixels(image), {.exposure = scene.scene.post.exposure});
   };
-  const double error = colourError(display(small.readRadiance()), display(truth.mean));
+  const double error = colourError(display(small->readRadiance()), display(truth.mean));
   return {tan05Record(run, case_name, "shading_ms", "ms", times_ms, "kernel events"),
           tan05Record(run, case_name, "bytes_per_px", "bytes",
-                      {mixtureBytes(renderer, scene, full)}, "texels asked for"),
+                      {mixtureBytes(*renderer, scene, full)}, "texels asked for"),
           tan05Record(run, case_name, "colour_error", "1", {error}, "at 500x500")};
 }
 
@@ -163,18 +163,17 @@ std::vector<Record> measureTan05Summary(BenchRun& run, const Tan05Scene& scene) 
   const View& view = scene.scene.view(kSummaryView);
   const int reps = run.options().reps;
   const ShadingOptions options = fullOptions(run, NormalMethod::kGmm);
-  FrameRenderer gmm = makeRenderer(run, scene, view, options);
-  FrameRenderer toksvig = makeRenderer(run, scene, view, fullOptions(run, NormalMethod::kToksvig));
-  FrameRenderer fournier =
-      makeRenderer(run, scene, view, fullOptions(run, NormalMethod::kFournier));
+  const auto gmm = makeRenderer(run, scene, view, options);
+  const auto toksvig = makeRenderer(run, scene, view, fullOptions(run, NormalMethod::kToksvig));
+  const auto fournier = makeRenderer(run, scene, view, fullOptions(run, NormalMethod::kFournier));
   ShadingOptions half_options = options, narrow_options = options;
   half_options.half_texels = true;
   narrow_options.lanes = 1;
-  FrameRenderer half = makeRenderer(run, scene, view, half_options);
-  FrameRenderer narrow = makeRenderer(run, scene, view, narrow_options);
+  const auto half = makeRenderer(run, scene, view, half_options);
+  const auto narrow = makeRenderer(run, scene, view, narrow_options);
   const Samples one_lane =
-      options.lanes > 1 ? ratioInTurn(narrow, gmm, std::min(reps, kOneLaneReps)) : Samples{1};
-  const bool same = relMse(gmm.readRadiance(), narrow.readRadiance()) == 0;
+      options.lanes > 1 ? ratioInTurn(*narrow, *gmm, std::min(reps, kOneLaneReps)) : Samples{1};
+  const bool same = relMse(gmm->readRadiance(), narrow->readRadiance()) == 0;
   const NormalMixtures fitted = fitNormalMixtures(
       generateNormalMap({.kind = "disk", .size_px = kFitSize_px}),
       {.threads = run.line().common.threads}, [](double) { stopIfInterrupted(); });
@@ -184,13 +183,13 @@ std::vector<Record> measureTan05Summary(BenchRun& run, const Tan05Scene& scene) 
     return tan05Record(run, "all", metric, unit, samples, note);
   };
   std::vector<Record> records = {
-      record("gmm_over_toksvig", "1", ratioInTurn(gmm, toksvig, reps), "kernel events, in turn"),
-      record("fournier_over_gmm", "1", ratioInTurn(fournier, gmm, std::min(reps, kOneLaneReps)),
+      record("gmm_over_toksvig", "1", ratioInTurn(*gmm, *toksvig, reps), "kernel events, in turn"),
+      record("fournier_over_gmm", "1", ratioInTurn(*fournier, *gmm, std::min(reps, kOneLaneReps)),
              "kernel events, in turn"),
       record("speedup_vs_w1", "1", one_lane, "kernel events, in turn"),
-      record("half_over_float", "1", ratioInTurn(half, gmm, reps), "kernel events, in turn"),
+      record("half_over_float", "1", ratioInTurn(*half, *gmm, reps), "kernel events, in turn"),
       record("fit_ms", "ms", {fitted.fit_ms}, "512x512, four lobes, not from the cache"),
-      record("bytes_per_px", "bytes", {mixtureBytes(gmm, scene, options)}, "texels asked for")};
+      record("bytes_per_px", "bytes", {mixtureBytes(*gmm, scene, options)}, "texels asked for")};
   records[0].paper = 125.0 / 120;
   records[1].paper = 120.0 / 13;
   records[4].paper = kTan05FitMs;

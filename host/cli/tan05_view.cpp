@@ -52,12 +52,14 @@ Truth measureTruth(BenchRun& run, const Tan05Scene& scene, const View& view,
   return {std::move(images.mean), error};
 }
 
-FrameRenderer makeRenderer(BenchRun& run, const Tan05Scene& scene, const View& view,
-                           const Tan05Settings& settings, const Tan05Method& method) {
+std::unique_ptr<FrameRenderer> makeRenderer(BenchRun& run, const Tan05Scene& scene,
+                                            const View& view, const Tan05Settings& settings,
+                                            const Tan05Method& method) {
   ShadingOptions options = settings.shading;
   options.normal_method = method.method;
   options.mixture_order = method.order;
-  return FrameRenderer(run.device(), scene.scene, view, options, settings.threads, scene.textures);
+  return std::make_unique<FrameRenderer>(run.device(), scene.scene, view, options, settings.threads,
+                                         scene.textures);
 }
 
 Image renderFrame(FrameRenderer& renderer) {
@@ -203,21 +205,21 @@ Tan05View measureTan05View(BenchRun& run, const Tan05Scene& scene, const View& v
   const std::vector<Image> truth_zoom = zoomFrames(scene, view, [&](const View& moved) {
     return measureTruth(run, scene, moved, settings).radiance;
   });
-  std::vector<FrameRenderer> renderers;
+  std::vector<std::unique_ptr<FrameRenderer>> renderers;
   std::vector<Image> images;
   std::vector<std::pair<std::string, Image>> pictures = {
       {"truth", display(truth.radiance, scene.scene)}};
   for (const Tan05Method& method : tan05Methods()) {
     stopIfInterrupted();
     renderers.push_back(makeRenderer(run, scene, view, settings, method));
-    images.push_back(renderFrame(renderers.back()));
+    images.push_back(renderFrame(*renderers.back()));
     pictures.emplace_back(method.name, display(images.back(), scene.scene));
   }
   std::vector<std::vector<double>> times_ms(renderers.size());
   for (int rep = 0; rep < settings.reps; ++rep)
     for (std::size_t m = 0; m < renderers.size(); ++m) {
       stopIfInterrupted();
-      times_ms[m].push_back(renderers[m].shade().shading_event_ns * kMsPerNs);
+      times_ms[m].push_back(renderers[m]->shade().shading_event_ns * kMsPerNs);
     }
 
   Tan05View result;
@@ -226,8 +228,7 @@ Tan05View measureTan05View(BenchRun& run, const Tan05Scene& scene, const View& v
     const std::string name = fmt::format("{}/{}/{}", scene.scene.name, view.name, method.name);
     const std::vector<Image> zoom = zoomFrames(scene, view, [&](const View& moved) {
       stopIfInterrupted();
-      FrameRenderer renderer = makeRenderer(run, scene, moved, settings, method);
-      return renderFrame(renderer);
+      return renderFrame(*makeRenderer(run, scene, moved, settings, method));
     });
     std::vector<Record>& records = result.records[method.name];
     records.push_back(
@@ -248,9 +249,9 @@ Tan05View measureTan05Distance(BenchRun& run, const Tan05Scene& scene, const Vie
   Tan05View result;
   for (const Tan05Method& method : tan05Methods()) {
     stopIfInterrupted();
-    FrameRenderer renderer = makeRenderer(run, scene, view, settings, method);
+    const auto renderer = makeRenderer(run, scene, view, settings, method);
     const std::string name = fmt::format("{}/{}/{}", scene.scene.name, view_name, method.name);
-    addErrors(run, scene.scene, name, renderFrame(renderer), truth, result.records[method.name]);
+    addErrors(run, scene.scene, name, renderFrame(*renderer), truth, result.records[method.name]);
   }
   return result;
 }

@@ -48,7 +48,7 @@ LobeLight shadeLobe(const NormalLobe& lobe, const glm::dvec3& light, const glm::
   const glm::dvec2 slope(glm::dot(up, h) / cosine, glm::dot(side, h) / cosine);
   const double of_slopes = exponent(slope, {1, 0}, along, across);
   const double of_normals = exponent(glm::dvec2(h) - lobe.mean, d, along * z * z, across);
-  const double scale = (1 - share) / std::pow(cosine, 4) + share * h.z / z;
+  const double scale = (1 - share) / std::pow(cosine, 4) + share * std::max(h.z, 0.0) / z;
   const double density = std::exp(-((1 - share) * of_slopes + share * of_normals)) * scale /
                          (kPi * std::sqrt(along * across));
 

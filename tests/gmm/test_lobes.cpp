@@ -10,7 +10,6 @@
 #include "host/reference/normal_lobe.h"
 #include "tests/glint/pixel_harness.h"
 #include "tests/gmm/texture_harness.h"
-#include "tests/tolerances.h"
 
 namespace glintmark {
 namespace {
@@ -18,6 +17,8 @@ namespace {
 /// Second moments near 1 in single precision.
 constexpr double kVarianceTolerance = 4e-7;
 constexpr double kMeanTolerance = 1e-6;
+/// Relative: the rational fit of Smith's Lambda is good to 0.35 % of G1, here for light and view.
+constexpr double kMaskingTolerance = 7e-3;
 /// Relative, of cosines: some ten roundings.
 constexpr double kCosineTolerance = 1e-5;
 /// Brightness below which a difference does not show: the peak of the base lobe is above 1.
@@ -97,7 +98,8 @@ TEST(Lobes, MatchTheReference) {
           probed[i].weight, {probed[i].mean_x, probed[i].mean_y}, probed[i].variance};
       const reference::LobeLight expected =
           reference::shadeLobe(found, glm::dvec3(cases[i].light), glm::dvec3(cases[i].view), alpha);
-      EXPECT_NEAR(probed[i].specular, expected.specular, kLobeTolerance * expected.specular + kDark)
+      EXPECT_NEAR(probed[i].specular, expected.specular,
+                  kMaskingTolerance * expected.specular + kDark)
           << "case " << i << ", alpha " << alpha;
       EXPECT_NEAR(probed[i].cosine, expected.cosine, kCosineTolerance) << "case " << i;
     }

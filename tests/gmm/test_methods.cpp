@@ -33,14 +33,14 @@ constexpr NormalMethod kAllMethods[] = {NormalMethod::kMip,      NormalMethod::k
                                         NormalMethod::kToksvig,  NormalMethod::kLean,
                                         NormalMethod::kFournier, NormalMethod::kGmm};
 
-struct Setup {
+struct MappedFloor {
   Scene scene;
   View view = lookingDown(60, 3);
   ShadingOptions options;
   std::shared_ptr<NormalTextures> textures =
       std::make_shared<NormalTextures>(KernelBench::shared().device);
 
-  explicit Setup(NormalMap map) {
+  explicit MappedFloor(NormalMap map) {
     Material material;
     material.name = "metal";
     material.has_glints = false;
@@ -99,15 +99,15 @@ bool isSane(const Image& image) {
 class Methods : public testing::TestWithParam<NormalMethod> {};
 
 TEST_P(Methods, OneLaneAndSixteenGiveTheSameBits) {
-  const Setup setup(bumps(64));
-  EXPECT_EQ(setup.render(GetParam(), 1).pixels, setup.render(GetParam(), 16).pixels);
+  const MappedFloor floor(bumps(64));
+  EXPECT_EQ(floor.render(GetParam(), 1).pixels, floor.render(GetParam(), 16).pixels);
 }
 
 TEST_P(Methods, MagnifiedMapsAgreeWithTheTruth) {
-  Setup setup(bumps(32));
-  setup.view = lookingDown(60, 0.05);
-  const TruthImages truth = setup.truth();
-  EXPECT_LT(relativeDifference(setup.render(GetParam()), truth.mean), kMagnifiedTolerance);
+  MappedFloor floor(bumps(32));
+  floor.view = lookingDown(60, 0.05);
+  const TruthImages truth = floor.truth();
+  EXPECT_LT(relativeDifference(floor.render(GetParam()), truth.mean), kMagnifiedTolerance);
 }
 
 TEST_P(Methods, HardMapsStayFinite) {
@@ -118,16 +118,16 @@ TEST_P(Methods, HardMapsStayFinite) {
     steep.normals[i] = glm::normalize(glm::vec3(i % 2 == 0 ? 1 : -1, i % 3 == 0 ? 1 : 0, 1e-3f));
   for (const NormalMap& map : {strip, lone, odd, steep, generateNormalMap({"flat", 4})})
     for (const double distance : {0.5, 6.0}) {
-      Setup setup(map);
-      setup.view = lookingDown(8, distance);
-      const Image image = setup.render(GetParam());
+      MappedFloor floor(map);
+      floor.view = lookingDown(8, distance);
+      const Image image = floor.render(GetParam());
       EXPECT_TRUE(isSane(image)) << map.width_px << "x" << map.height_px << " " << map.name;
     }
 }
 
 TEST_P(Methods, FlatMapsAreTheMeshItself) {
-  Setup mapped(generateNormalMap({"flat", 8}));
-  Setup bare = mapped;
+  MappedFloor mapped(generateNormalMap({"flat", 8}));
+  MappedFloor bare = mapped;
   bare.scene.materials[0].normal_map.reset();
   EXPECT_LT(relativeDifference(mapped.render(GetParam()), bare.render(GetParam())),
             GetParam() == NormalMethod::kFournier ? kMagnifiedTolerance : kExactTolerance);
@@ -136,27 +136,27 @@ TEST_P(Methods, FlatMapsAreTheMeshItself) {
 INSTANTIATE_TEST_SUITE_P(All, Methods, testing::ValuesIn(kAllMethods));
 
 TEST(Mixtures, HalvesDoNotCancel) {
-  const Setup setup(bumps(64));
-  const Image whole = setup.render(NormalMethod::kGmm);
-  EXPECT_LT(relativeDifference(setup.render(NormalMethod::kGmm, 0, true), whole), kHalfTolerance);
+  const MappedFloor floor(bumps(64));
+  const Image whole = floor.render(NormalMethod::kGmm);
+  EXPECT_LT(relativeDifference(floor.render(NormalMethod::kGmm, 0, true), whole), kHalfTolerance);
 }
 
 TEST(Mixtures, AreNearerToTheTruthThanOtherFilters) {
-  Setup setup(generateNormalMap({.kind = "disk", .size_px = 128}));
-  setup.view = lookingDown(60, 4);
-  const Image truth = setup.truth().mean;
-  const double gmm = relativeDifference(setup.render(NormalMethod::kGmm), truth);
+  MappedFloor floor(generateNormalMap({.kind = "disk", .size_px = 128}));
+  floor.view = lookingDown(60, 4);
+  const Image truth = floor.truth().mean;
+  const double gmm = relativeDifference(floor.render(NormalMethod::kGmm), truth);
   for (const NormalMethod method :
        {NormalMethod::kMip, NormalMethod::kFixed, NormalMethod::kToksvig, NormalMethod::kLean})
-    EXPECT_LT(gmm, relativeDifference(setup.render(method), truth)) << static_cast<int>(method);
+    EXPECT_LT(gmm, relativeDifference(floor.render(method), truth)) << static_cast<int>(method);
 }
 
 TEST(Truth, BatchesAddUpToTheSameSamples) {
-  Setup setup(bumps(32));
-  setup.options.truth = true;
+  MappedFloor floor(bumps(32));
+  floor.options.truth = true;
   const auto render = [&](std::initializer_list<std::uint32_t> counts) {
-    FrameRenderer renderer(KernelBench::shared().device, setup.scene, setup.view, setup.options, 1,
-                           setup.textures);
+    FrameRenderer renderer(KernelBench::shared().device, floor.scene, floor.view, floor.options, 1,
+                           floor.textures);
     renderer.prepare();
     std::uint32_t done = 0;
     for (const std::uint32_t count : counts) {
@@ -169,10 +169,10 @@ TEST(Truth, BatchesAddUpToTheSameSamples) {
 }
 
 TEST(Truth, StandardErrorCoversTheDistanceToAFinerTruth) {
-  const Setup setup(bumps(64));
+  const MappedFloor floor(bumps(64));
   Device& device = KernelBench::shared().device;
   const auto render = [&](int spp) {
-    return renderTruth(device, setup.scene, setup.view, setup.options, spp, {}, 1, setup.textures);
+    return renderTruth(device, floor.scene, floor.view, floor.options, spp, {}, 1, floor.textures);
   };
   const TruthImages coarse = render(16), fine = render(512);
   std::size_t far = 0, count = coarse.standard_error.pixels.size() / 3;
@@ -215,12 +215,12 @@ TEST(Mixtures, AbsentNormalMapsLeaveNothingBehind) {
 }
 
 TEST(Mixtures, OnlyTheChosenTextureIsMade) {
-  const Setup setup(bumps(16));
-  setup.render(NormalMethod::kToksvig);
-  const std::size_t means = setup.textures->bytes();
+  const MappedFloor floor(bumps(16));
+  floor.render(NormalMethod::kToksvig);
+  const std::size_t means = floor.textures->bytes();
   EXPECT_EQ(means, (16u * 16 + 8 * 8 + 4 * 4 + 2 * 2 + 1) * sizeof(float4));
-  setup.render(NormalMethod::kMip);
-  EXPECT_EQ(setup.textures->bytes(), means) << "mip reads the same texture";
+  floor.render(NormalMethod::kMip);
+  EXPECT_EQ(floor.textures->bytes(), means) << "mip reads the same texture";
 }
 
 }  // namespace
