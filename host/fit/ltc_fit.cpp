@@ -22,7 +22,7 @@ namespace {
 // Times that every cell is fitted again from its neighbours' lobes. More gain nothing visible.
 constexpr int kRefinements = 2;
 
-// Column 0 is fitted at the roughness of this column, close enough to the limit of alpha -> 0.
+// Column 0 stands for the limit of alpha -> 0; this column is close enough to measure it at.
 constexpr double kFirstColumn = 0.2;
 
 // Samples for the albedos, which want to be good to 1e-4 and are needed once per cell.

@@ -13,7 +13,7 @@ struct LtcFitOptions {
   int threads = 0;  // 0: all cores
   /// Called with the share done, in [0, 1], from one worker at a time; may be empty. Throwing from
   /// it ends the fit.
-  std::function<void(double)> progress;
+  std::function<void(double)> progress{};
 };
 
 /// The lobe that lies closest to the BRDF in the sense of ltcFitError: the better one of the minima
@@ -22,8 +22,8 @@ struct LtcFitOptions {
 LtcLobe fitLtcLobe(reference::Ndf ndf, double alpha, double cos_theta,
                    std::span<const LtcLobe> starts, bool symmetric);
 
-/// Roughness and cosine of the view angle that the cell (x, y) of a table of `size` is fitted for.
-/// Those of its node, except that column 0 stands for the limit of alpha -> 0.
+/// Roughness that column x of a table of `size` is fitted for: that of its node, except that column
+/// 0, the limit of alpha -> 0, is measured at a very small one.
 double ltcFitAlpha(int x, int size);
 
 /// Fits a whole table. Bits do not depend on the number of threads. Throws Error for a size outside

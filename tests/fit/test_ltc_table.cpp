@@ -18,7 +18,7 @@ using reference::Ndf;
 
 constexpr std::size_t kVersionOffset = 8, kSizeOffset = 16, kHeaderBytes = 32;
 
-// A table whose entries tell where they are: 1000 * y + x, plus 0.1 per entry.
+// A table whose entries tell where they are: 1000 y + x, plus an eighth per entry.
 LtcTable numberedTable(int size) {
   LtcTable table(Ndf::kBeckmann, size);
   for (int y = 0; y < size; ++y) {
