@@ -9,6 +9,9 @@
 #include "pixel.clh"
 #if CONE_LIGHTS
 #include "cone_light.clh"
+#if MULTISCATTER != MULTISCATTER_OFF || METAL_COMPENSATION
+#include "multiscatter.clh"
+#endif
 #if GLINT
 #include "glint_pixel.clh"
 #endif
@@ -24,6 +27,9 @@ kernel void shade(global const uint* planes, constant const FrameParams* frame,
                   constant const float4* taps,
 #if NORMAL_MAP
                   constant const MipTexture* map, global const float4* map_texels,
+#endif
+#if MULTISCATTER != MULTISCATTER_OFF || METAL_COMPENSATION
+                  constant const MultiscatterMaterial* scatter,
 #endif
 #if LTC
                   constant const AreaLightParams* area_lights, global const float* ltc_table,
@@ -52,6 +58,10 @@ kernel void shade(global const uint* planes, constant const FrameParams* frame,
 #if CONE_LIGHTS
   const vfloat3 view = viewDirection(loadUint(planes, PLANE_PIXEL * stride + entry), frame, basis);
   const SmithLambda lambda_view = smithLambda(view, material->alpha_g);
+
+#if MULTISCATTER != MULTISCATTER_OFF
+  const vfloat view_term = viewTerm(view.z, scatter);
+#endif
 
 #if GLINT
   const float2 gamma = gridStretch(material->alpha_g, material->alpha_l);
@@ -94,7 +104,13 @@ kernel void shade(global const uint* planes, constant const FrameParams* frame,
 #endif
     }
 #endif
+#if METAL_COMPENSATION
+    ratio = compensate(ratio, view.z, material, scatter);
+#endif
     addLight(lobe, ratio, material, light, &sum);
+#if MULTISCATTER != MULTISCATTER_OFF
+    addScattered(basis, view, view_term, scatter, light, taps, &sum);
+#endif
   }
 #endif
 #if LTC

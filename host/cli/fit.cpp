@@ -10,6 +10,7 @@ void addFitCommand(CLI::App& app, CommandLine& line) {
   command->require_subcommand(1);
   addFitLtcCommand(*command, line);
   addFitMesoCommand(*command, line);
+  addFitLobesCommand(*command, line);
   for (CLI::App* table : command->get_subcommands(nullptr)) table->fallthrough();
 }
 

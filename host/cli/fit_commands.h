@@ -6,5 +6,6 @@ namespace glintmark {
 
 void addFitLtcCommand(CLI::App& fit, CommandLine& line);
 void addFitMesoCommand(CLI::App& fit, CommandLine& line);
+void addFitLobesCommand(CLI::App& fit, CommandLine& line);
 
 }  // namespace glintmark

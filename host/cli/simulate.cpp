@@ -36,8 +36,7 @@ SurfaceKind parseSurface(const std::string& name) {
   if (name == "diffuse") return SurfaceKind::kDiffuse;
   if (name == "metal") return SurfaceKind::kMetal;
   if (name == "dielectric") return SurfaceKind::kDielectric;
-  throw Error(
-      fmt::format("unknown surface '{}'; surfaces are diffuse, metal, dielectric", name));
+  throw Error(fmt::format("unknown surface '{}'; surfaces are diffuse, metal, dielectric", name));
 }
 
 SimulationSettings makeSettings(const SimulateOptions& options) {
@@ -70,7 +69,8 @@ void castRays(Simulator& simulator, Simulation& simulation, const SimulateOption
   const Stopwatch watch;
   while (simulation.rays_done < total) {
     simulator.advance(simulation);
-    progress.show(static_cast<int>(100 * simulation.rays_done / total), 100, "per cent of the rays");
+    progress.show(static_cast<int>(100 * simulation.rays_done / total), 100,
+                  "per cent of the rays");
     const bool stop = InterruptGuard::interrupted() && simulation.rays_done < total;
     if (stop || watch.elapsedNs() - saved_ns > kCheckpointEvery_ns) {
       save();
@@ -114,7 +114,7 @@ std::string energyTable(const Simulation& simulation, double albedo) {
   const double left = std::pow(albedo, simulation.settings.orders) *
                       static_cast<double>(simulation.leftOver() + simulation.gaveUp()) / rays;
   const double absorbed = simulation.settings.kind == SurfaceKind::kDiffuse
-                              ? 1 - above - left
+                              ? std::max(1 - above - left, 0.0)
                               : static_cast<double>(simulation.absorbed()) / rays;
   return table.toString() +
          fmt::format(
@@ -126,9 +126,9 @@ std::string energyTable(const Simulation& simulation, double albedo) {
 std::string energyCsv(const Simulation& simulation, double albedo) {
   std::string text = "order,above,below\n";
   for (int order = 1; order <= simulation.settings.orders; ++order)
-    text += fmt::format("{},{},{}\n", order, orderEnergy(simulation, order, albedo),
-                        static_cast<double>(simulation.left(1, order)) /
-                            static_cast<double>(simulation.rays_done));
+    text += fmt::format(
+        "{},{},{}\n", order, orderEnergy(simulation, order, albedo),
+        static_cast<double>(simulation.left(1, order)) / static_cast<double>(simulation.rays_done));
   return text;
 }
 
@@ -140,8 +140,7 @@ int runSimulate(const CommandLine& line, const SimulateOptions& options) {
     throw Error(fmt::format("--output '{}' must end in .png", options.picture));
   Simulation simulation{settings, 0, {}};
   if (options.resume)
-    simulation =
-        unpackSimulation(readTextFile(options.checkpoint), settings, options.checkpoint);
+    simulation = unpackSimulation(readTextFile(options.checkpoint), settings, options.checkpoint);
 
   Device device = openDevice(line.common);
   ProgramCache cache(device);
@@ -202,9 +201,8 @@ void addSimulateCommand(CLI::App& app, CommandLine& line) {
       "  glintmark simulate --alpha 0.8 --incidence 60 -o orders.png\n"
       "  glintmark simulate --surface metal --ior 0.2 --k 3.9 --alpha 0.5 0.1\n"
       "  glintmark simulate --rays 500e6 --checkpoint run.sim --resume");
-  command->callback([options, &line] {
-    line.action = [options, &line] { return runSimulate(line, *options); };
-  });
+  command->callback(
+      [options, &line] { line.action = [options, &line] { return runSimulate(line, *options); }; });
 }
 
 }  // namespace glintmark

@@ -73,6 +73,10 @@ KernelConfig configFor(const Material& material, const Scene& scene, const Shadi
   config.count_cells = config.glint && options.count_cells;
   config.method = config.glint ? options.method : GlintMethod::kZk16;
   config.ka = config.glint ? options.ka : 16;
+  // The ground truth of normal maps and area lights keeps to the plain lobes.
+  if (config.diffuse && !options.truth)
+    config.multiscatter = static_cast<Multiscatter>(material.diffuse_model);
+  config.metal_compensation = material.compensation && !options.truth;
   setNormalMap(material, options, config);
   setAreaLights(material, scene, options, config);
   config.planes = planesFor(config);

@@ -12,6 +12,7 @@
 #include "host/frame/area_lights.h"
 #include "host/frame/effects.h"
 #include "host/frame/lights.h"
+#include "host/frame/multiscatter.h"
 #include "host/ocl/compute.h"
 
 namespace glintmark {
@@ -44,6 +45,7 @@ struct FrameRenderer::Impl {
     Buffer frame_params;
     Buffer material;
     Buffer map_layout, map_texels;  // of a normal map, if the material has one
+    Buffer scatter;                 // of multiple scattering, if the material has it
     std::vector<KernelArg> area_args;
   };
 
@@ -154,6 +156,10 @@ void FrameRenderer::Impl::makeLaunches(Band& band) {
       launch.map_texels = texture.texels;
     }
 
+    if (launch.config.multiscatter != Multiscatter::kOff || launch.config.metal_compensation)
+      launch.scatter = uploadItems(device, std::vector{prepareMultiscatter(material, launch.config)},
+                                   "a material's scattering");
+
     FrameParams params{};
     params.ray_origin = toFloat4(band.camera.ray_origin);
     params.ray_dx = toFloat4(band.camera.ray_dx);
@@ -180,6 +186,7 @@ std::vector<KernelArg> FrameRenderer::Impl::arguments(const Band& band,
     args.emplace_back(launch.map_layout);
     args.emplace_back(launch.map_texels);
   }
+  if (!launch.scatter.empty()) args.emplace_back(launch.scatter);
   args.insert(args.end(), launch.area_args.begin(), launch.area_args.end());
   args.emplace_back(band.radiance);
   if (launch.config.count_cells) args.emplace_back(band.counts);

@@ -30,6 +30,25 @@ void readType(SceneTable& table, Material& material) {
   material.has_grooves = type == "grooves";
 }
 
+void readNdf(SceneTable& table, Material& material) {
+  const std::string ndf = table.text("ndf", "beckmann");
+  if (ndf != "ggx" && ndf != "beckmann")
+    table.fail("ndf", fmt::format("is '{}', expected ggx or beckmann", ndf));
+  material.ggx = ndf == "ggx";
+}
+
+void readScattering(SceneTable& table, Material& material) {
+  constexpr const char* kNames[] = {"lambert", "published", "refit", "eon"};
+  const std::string name = table.text("diffuse_model", "lambert");
+  const auto found = std::ranges::find(kNames, name);
+  if (found == std::end(kNames))
+    table.fail("diffuse_model",
+               fmt::format("is '{}', expected lambert, published, refit or eon", name));
+  material.diffuse_model = static_cast<DiffuseModel>(found - std::begin(kNames));
+  material.diffuse_roughness = table.number("diffuse_roughness", 0.5, kReflectance);
+  material.compensation = table.flag("compensation", false);
+}
+
 void readPalette(SceneTable& table, Material& material) {
   if (!table.has("palette")) return;
   material.has_colour = material.has_glints;
@@ -65,6 +84,8 @@ Material readMaterial(SceneTable& table, const SceneRequest& request) {
   material.glint.f0 = toFloat4(table.vector3("f0", glm::dvec3(0.04), kReflectance));
   material.glint.albedo = toFloat4(table.vector3("albedo", glm::dvec3(0), kReflectance));
   readPalette(table, material);
+  readNdf(table, material);
+  readScattering(table, material);
   material.normal_map = readNormalMapSource(table, request);
   if (material.normal_map && material.has_glints)
     table.fail("normal_map", "is given, expected it for materials of type smooth only");

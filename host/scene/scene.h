@@ -60,6 +60,10 @@ struct NormalMapSource {
   int lobes = 4;  // Gaussians per texel where mixtures stand for the map, 1 to 8
 };
 
+/// Diffuse lobe: Lambert's, or a rough surface that light leaves after several bounces, [PAT18] with
+/// its own coefficients or ours, or energy-preserving Oren-Nayar.
+enum class DiffuseModel : int { kLambert, kPublished, kRefit, kEon };
+
 /// [ZK16] Sect. 4.5, ready for the device, with what selects the effects.
 struct Material {
   std::string name;
@@ -67,6 +71,10 @@ struct Material {
   bool has_glints = true;    // false: a smooth Beckmann lobe of roughness alpha_g
   bool has_grooves = false;  // 1-D NDF, [ZK16] Eq. 6: alpha_l.x is not used
   bool has_colour = false;   // coloured microdetails
+  bool ggx = false;          // NDF under area lights: GGX, not Beckmann
+  DiffuseModel diffuse_model = DiffuseModel::kLambert;
+  double diffuse_roughness = 0.5;  // Beckmann roughness of the diffuse microfacets, [0, 1]
+  bool compensation = false;       // the specular lobe gets back what it loses to further bounces
   std::optional<NormalMapSource> normal_map{};  // of smooth materials only
 };
 

@@ -42,11 +42,13 @@ std::uint32_t launchSeed(std::uint32_t seed, std::uint64_t surface) {
 }
 
 std::size_t cellIndex(int side, int order, std::size_t cosine, std::size_t azimuth) {
-  const auto block = static_cast<std::size_t>(side) * HF_MAX_ORDERS + static_cast<std::size_t>(order - 1);
+  const auto block =
+      static_cast<std::size_t>(side) * HF_MAX_ORDERS + static_cast<std::size_t>(order - 1);
   return (block * HF_COSINES + cosine) * HF_AZIMUTHS + azimuth;
 }
 
-HeightfieldRun makeRun(const SimulationSettings& s, float count_height, std::uint32_t rays_per_lane) {
+HeightfieldRun makeRun(const SimulationSettings& s, float count_height,
+                       std::uint32_t rays_per_lane) {
   const glm::dvec3 light = incidentDirection(s);
   HeightfieldRun run{};
   run.incoming = {static_cast<float>(-light.x), static_cast<float>(-light.y),
@@ -70,9 +72,12 @@ void validate(const SimulationSettings& s) {
   requireRange("number of orders", s.orders, 1, HF_MAX_ORDERS);
   if (s.kind != SurfaceKind::kDiffuse) requireRange("index of refraction n", s.index_n, 0.05, 20);
   if (s.kind == SurfaceKind::kDielectric && std::abs(s.index_n - 1) < 1e-3)
-    throw Error(fmt::format("index of refraction {} of a dielectric is that of air; it must differ "
-                            "from 1 by 0.001 or more", s.index_n));
-  if (s.kind == SurfaceKind::kMetal) requireRange("imaginary index of refraction k", s.index_k, 0, 1000);
+    throw Error(
+        fmt::format("index of refraction {} of a dielectric is that of air; it must differ "
+                    "from 1 by 0.001 or more",
+                    s.index_n));
+  if (s.kind == SurfaceKind::kMetal)
+    requireRange("imaginary index of refraction k", s.index_k, 0, 1000);
   if (s.rays == 0) throw Error("0 rays are too few; it must be at least 1");
   if (s.rays > (std::uint64_t{1} << 48))
     throw Error(fmt::format("{} rays are too many; it must be at most 2^48", s.rays));
@@ -84,8 +89,9 @@ glm::dvec3 incidentDirection(const SimulationSettings& s) {
 }
 
 std::string traceOptions(const SimulationSettings& settings, int lanes) {
-  return fmt::format("-D WIDTH={} -D SURFACE_KIND={} -D LAST_BOUNCE_LEAVES={:d} -D GROUPS={}", lanes,
-                     static_cast<int>(settings.kind), settings.last_bounce_leaves, lanes > 1 ? kGroups : 1);
+  return fmt::format("-D WIDTH={} -D SURFACE_KIND={} -D LAST_BOUNCE_LEAVES={:d} -D GROUPS={}",
+                     lanes, static_cast<int>(settings.kind), settings.last_bounce_leaves,
+                     lanes > 1 ? kGroups : 1);
 }
 
 std::uint64_t Simulation::left(int side, int order) const {
@@ -98,8 +104,12 @@ std::uint64_t Simulation::absorbed() const {
   return std::accumulate(begin, begin + HF_MAX_ORDERS, std::uint64_t{0});
 }
 
-std::uint64_t Simulation::leftOver() const { return histogram[HF_LEFT_OVER]; }
-std::uint64_t Simulation::gaveUp() const { return histogram[HF_GAVE_UP]; }
+std::uint64_t Simulation::leftOver() const {
+  return histogram[HF_LEFT_OVER];
+}
+std::uint64_t Simulation::gaveUp() const {
+  return histogram[HF_GAVE_UP];
+}
 
 double Simulation::balance() const {
   const std::uint64_t all = std::accumulate(histogram.begin(), histogram.end(), std::uint64_t{0});
@@ -124,9 +134,10 @@ void Simulator::prepare(const SimulationSettings& settings) {
   validate(settings);
   if (!surface_ || settings.correlation_texels != settings_.correlation_texels)
     surface_ = std::make_unique<SurfaceMaker>(device_, cache_, settings.correlation_texels);
-  trace_ = cache_.getWithOptions("heightfield.cl", traceOptions(settings, lanes_)).kernel("traceRays");
-  const HeightfieldRun run = makeRun(settings, surface_->countHeight(),
-                                     raysPerItem(device_) / laneCount(lanes_));
+  trace_ =
+      cache_.getWithOptions("heightfield.cl", traceOptions(settings, lanes_)).kernel("traceRays");
+  const HeightfieldRun run =
+      makeRun(settings, surface_->countHeight(), raysPerItem(device_) / laneCount(lanes_));
   run_ = Buffer(device_, sizeof run, "the simulation's parameters");
   run_.write(&run, sizeof run);
   if (outcomes_.empty()) {
@@ -144,10 +155,15 @@ void Simulator::advance(Simulation& simulation) {
   const std::uint32_t seed = launchSeed(settings.seed, simulation.rays_done / kRaysPerSurface);
   const std::uint64_t rays = std::min(kRaysPerSurface, settings.rays - simulation.rays_done);
   surface_ns_ += surface_->draw(seed);
-  const KernelArg args[] = {surface_->heights(), surface_->cones(), run_, seed,
-                            static_cast<std::uint32_t>(rays), outcomes_};
+  const KernelArg args[] = {surface_->heights(),
+                            surface_->cones(),
+                            run_,
+                            seed,
+                            static_cast<std::uint32_t>(rays),
+                            outcomes_};
   const std::size_t items = (rays + raysPerItem(device_) - 1) / raysPerItem(device_);
-  trace_ns_ += trace_.launch(args, items, device_.info().is_cpu ? kCpuLocalSize : kGpuLocalSize).wall_ns;
+  trace_ns_ +=
+      trace_.launch(args, items, device_.info().is_cpu ? kCpuLocalSize : kGpuLocalSize).wall_ns;
   outcomes_.read(words_.data(), rays * 4);
   for (std::size_t i = 0; i < rays; ++i) ++simulation.histogram[words_[i]];
   simulation.rays_done += rays;

@@ -26,10 +26,10 @@ std::string takeLine(const std::string& text, std::size_t& position) {
 
 std::string describeSettings(const SimulationSettings& s) {
   constexpr const char* kKinds[] = {"diffuse", "metal", "dielectric"};
-  std::string text = fmt::format("{} alpha={},{} incidence={} azimuth={} orders={} seed={} l={}",
-                                 kKinds[static_cast<int>(s.kind)], s.alpha.x, s.alpha.y,
-                                 s.incidence_deg, s.azimuth_deg, s.orders, s.seed,
-                                 s.correlation_texels);
+  std::string text =
+      fmt::format("{} alpha={},{} incidence={} azimuth={} orders={} seed={} l={}",
+                  kKinds[static_cast<int>(s.kind)], s.alpha.x, s.alpha.y, s.incidence_deg,
+                  s.azimuth_deg, s.orders, s.seed, s.correlation_texels);
   if (s.kind != SurfaceKind::kDiffuse) text += fmt::format(" n={}", s.index_n);
   if (s.kind == SurfaceKind::kMetal) text += fmt::format(" k={}", s.index_k);
   if (s.last_bounce_leaves) text += " last-bounce-leaves";
@@ -56,8 +56,7 @@ Simulation unpackSimulation(const std::string& text, const SimulationSettings& s
                             theirs, ours));
   Simulation simulation{settings, 0, {}};
   const std::string rays = takeLine(text, position);
-  const auto parsed =
-      std::from_chars(rays.data(), rays.data() + rays.size(), simulation.rays_done);
+  const auto parsed = std::from_chars(rays.data(), rays.data() + rays.size(), simulation.rays_done);
   if (parsed.ec != std::errc() ||
       text.size() - position != std::size_t{HF_HISTOGRAM_WORDS} * kWordBytes)
     throw Error(fmt::format("{} is damaged; start again without --resume", source));

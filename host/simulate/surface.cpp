@@ -45,8 +45,7 @@ std::vector<float> inverseGaps() {
 
 SurfaceMaker::SurfaceMaker(Device& device, ProgramCache& cache, double correlation_texels) {
   const SurfaceSpectrum spectrum = makeSurfaceSpectrum(correlation_texels);
-  count_height_ =
-      static_cast<float>(spectrum.height_deviation * kMostDeviations / HF_MOST_COUNTS);
+  count_height_ = static_cast<float>(spectrum.height_deviation * kMostDeviations / HF_MOST_COUNTS);
   const Program program = cache.getWithOptions("height_surface.cl", "");
   draw_modes_ = program.kernel("drawModes");
   sum_columns_ = program.kernel("sumColumns");

@@ -7,7 +7,8 @@
 
 namespace glintmark {
 
-/// Moments of the facets' slopes of one surface, over both triangles of every cell, for roughness 1.
+/// Moments of the facets' slopes of one surface, over both triangles of every cell, for
+/// roughness 1.
 struct SlopeMoments {
   double variance_x = 0, variance_y = 0, covariance = 0;  // nominally 1/2, 1/2, 0
   double kurtosis_x = 0;                                  // nominally 3
@@ -22,8 +23,8 @@ class SurfaceMaker {
   /// Draws the surface of this seed; returns the time of the kernels [ns].
   double draw(std::uint32_t seed);
 
-  const Buffer& heights() const { return heights_; }  // packed, HF_HEIGHT_WORDS
-  const Buffer& cones() const { return cones_; }      // above, then below: 2 HF_CONE_WORDS
+  const Buffer& heights() const { return heights_; }   // packed, HF_HEIGHT_WORDS
+  const Buffer& cones() const { return cones_; }       // above, then below: 2 HF_CONE_WORDS
   float countHeight() const { return count_height_; }  // [texels] at roughness 1
 
   /// Heights of the last surface [counts], HF_TILE x HF_TILE, row by row.
@@ -32,8 +33,8 @@ class SurfaceMaker {
  private:
   float count_height_ = 0;
   Kernel draw_modes_, sum_columns_, sum_rows_, pack_heights_, block_tops_, block_cones_;
-  Buffer amplitudes_, modes_, cosines_, sines_, columns_, counts_, heights_, tops_, highest_, inverse_gaps_,
-      cones_;
+  Buffer amplitudes_, modes_, cosines_, sines_, columns_, counts_, heights_, tops_, highest_,
+      inverse_gaps_, cones_;
 };
 
 /// Measured over the facets of a surface from SurfaceMaker::readCounts.

@@ -41,8 +41,8 @@ double power(Wave wave, double length, double shear) {
 double slopeCovariance(double length, double shear) {
   double sum = 0;
   forEachWave([&](std::size_t, Wave k) {
-    sum += 0.5 * power(k, length, shear) *
-           (std::cos(k.x) + std::cos(k.y) - 1 - std::cos(k.x + k.y));
+    sum +=
+        0.5 * power(k, length, shear) * (std::cos(k.x) + std::cos(k.y) - 1 - std::cos(k.x + k.y));
   });
   return sum;
 }
@@ -62,8 +62,8 @@ double findShear(double length) {
 
 SurfaceSpectrum makeSurfaceSpectrum(double correlation_texels) {
   if (!(correlation_texels >= kShortest && correlation_texels <= kLongest))
-    throw Error(fmt::format("correlation length {} is not from {} to {} texels",
-                            correlation_texels, kShortest, kLongest));
+    throw Error(fmt::format("correlation length {} is not from {} to {} texels", correlation_texels,
+                            kShortest, kLongest));
   const double shear = findShear(correlation_texels);
   double variance = 0, fourth = 0, heights = 0;
   forEachWave([&](std::size_t, Wave k) {

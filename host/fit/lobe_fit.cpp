@@ -1,0 +1,202 @@
+#include "host/fit/lobe_fit.h"
+
+#include <ceres/ceres.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace glintmark {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr int kCells = LobeData::kCosines * LobeData::kAzimuths;
+
+// Smith's masking for Beckmann slopes, rational fit of Walter et al. 2007.
+double masking(double mu, double alpha) {
+  const double a = mu / (alpha * std::sqrt(std::max(1 - mu * mu, 1e-12)));
+  return a >= 1.6 ? 1 : a * (3.535 + 2.181 * a) / (1 + a * (2.276 + 2.577 * a));
+}
+
+template <typename T>
+T freeEnergy(const T* p, double mask, double cosine, double azimuth) {
+  using std::cos;
+  using std::sin;
+  // The axis leans in the plane of incidence; the light comes from azimuth 0.
+  const double sine = std::sqrt(1 - cosine * cosine);
+  T mu = cosine * cos(p[3]) + sine * std::cos(azimuth) * sin(p[3]);
+  if (mu < 1e-4) mu = T(1e-4);
+  return (1.0 - p[4] + p[4] * mask) * lobeEnergy(p[0], p[1], p[2], mu);
+}
+
+double maskingPair(double alpha, double mu_in, double cosine) {
+  return masking(mu_in, alpha) * masking(cosine, alpha);
+}
+
+// One histogram against one free lobe.
+struct FreeCost {
+  const LobeData& data;
+  double scale;
+
+  template <typename T>
+  bool operator()(const T* const p, T* residuals) const {
+    for (int i = 0; i < kCells; ++i) {
+      const double cosine = LobeData::cosine(i / LobeData::kAzimuths);
+      const double azimuth = LobeData::azimuth(i % LobeData::kAzimuths);
+      const double mask = maskingPair(data.alpha, data.mu_in, cosine);
+      residuals[i] =
+          (freeEnergy(p, mask, cosine, azimuth) - data.energy[static_cast<std::size_t>(i)]) * scale;
+    }
+    return true;
+  }
+};
+
+// The coefficients in the order of LobePolynomials. Those that [PAT18] has no power for stay 0.
+constexpr int kScale = 0, kExponent = 16, kFlattening = 18, kThird = 34, kCoefficients = 35;
+
+double surfaceAt(const double* c, double mu, double alpha) {
+  double sum = 0;
+  double mu_power = 1;
+  for (int i = 0; i < 4; ++i, mu_power *= mu) {
+    const double* row = c + 4 * i;
+    sum += mu_power * (row[0] + alpha * (row[1] + alpha * (row[2] + alpha * row[3])));
+  }
+  return sum;
+}
+
+// One order of one simulation, averaged over azimuths, against the polynomials.
+struct PolynomialCost {
+  const LobeData& data;
+
+  bool operator()(const double* const c, double* residuals) const {
+    const double scale = surfaceAt(c + kScale, data.mu_in, data.alpha);
+    const double exponent = data.alpha * (c[kExponent] + data.alpha * c[kExponent + 1]);
+    const double flattening = surfaceAt(c + kFlattening, data.mu_in, data.alpha);
+    if (exponent < 0.0 || flattening < 0.05) return false;
+    const double order = data.order == 3 ? c[kThird] : 1.0;
+    for (int row = 0; row < LobeData::kCosines; ++row) {
+      double mean = 0;
+      for (int column = 0; column < LobeData::kAzimuths; ++column)
+        mean += data.energy[static_cast<std::size_t>(row * LobeData::kAzimuths + column)];
+      mean /= LobeData::kAzimuths;
+      residuals[row] =
+          order * lobeEnergy(scale, exponent, flattening, LobeData::cosine(row)) - mean;
+    }
+    // A scale below 0 costs; the kernel would cut it off.
+    residuals[LobeData::kCosines] = std::min(scale, 0.0);
+    return true;
+  }
+};
+
+ceres::Solver::Options solverOptions() {
+  ceres::Solver::Options options;
+  options.max_num_iterations = 200;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.logging_type = ceres::SILENT;
+  options.num_threads = 1;
+  return options;
+}
+
+}  // namespace
+
+LobeData makeLobeData(const Simulation& simulation, int order) {
+  LobeData data;
+  data.alpha = simulation.settings.alpha.x;
+  data.mu_in = std::cos(glm::radians(simulation.settings.incidence_deg));
+  data.order = order;
+  data.energy.assign(kCells, 0.0);
+  constexpr int kRows = static_cast<int>(HF_COSINES) / LobeData::kCosines;
+  constexpr int kHalf = static_cast<int>(HF_AZIMUTHS) / 2;
+  constexpr int kColumns = kHalf / LobeData::kAzimuths;
+  const int first = order == 0 ? 1 : order;
+  const int last = order == 0 ? simulation.settings.orders : order;
+  for (int o = first; o <= last; ++o)
+    for (int row = 0; row < static_cast<int>(HF_COSINES); ++row)
+      for (int column = 0; column < 2 * kHalf; ++column) {
+        const int folded = column < kHalf ? column : 2 * kHalf - 1 - column;
+        data.energy[static_cast<std::size_t>(row / kRows * LobeData::kAzimuths +
+                                             folded / kColumns)] +=
+            static_cast<double>(simulation.cell(0, o, static_cast<std::size_t>(row),
+                                                static_cast<std::size_t>(column)));
+      }
+  const double rays = static_cast<double>(simulation.rays_done);
+  for (double& energy : data.energy) {
+    data.share += energy / rays;
+    energy *= kCells / (rays * 2 * kPi);
+  }
+  return data;
+}
+
+FreeLobe fitLobe(const LobeData& data) {
+  FreeLobe lobe;
+  if (data.share <= 0) return lobe;
+  const double mean = data.share / (2 * kPi);
+  double p[5] = {data.share * kPi, 1, 0.9, 0, 0.1};
+  ceres::Problem problem;
+  problem.AddResidualBlock(new ceres::AutoDiffCostFunction<FreeCost, kCells, 5>(
+                               new FreeCost{data, 1 / (mean * std::sqrt(kCells))}),
+                           nullptr, p);
+  const double low[5] = {0, 0, 0.1, -1.2, 0}, high[5] = {100, 20, 4, 1.2, 1};
+  for (int i = 0; i < 5; ++i) {
+    problem.SetParameterLowerBound(p, i, low[i]);
+    problem.SetParameterUpperBound(p, i, high[i]);
+  }
+  ceres::Solver::Summary summary;
+  ceres::Solve(solverOptions(), &problem, &summary);
+  lobe = {p[0], p[1], p[2], p[3], p[4], std::sqrt(2 * summary.final_cost)};
+  return lobe;
+}
+
+double freeLobeEnergy(const FreeLobe& lobe, double alpha, double mu_in, double cosine,
+                      double azimuth) {
+  const double p[5] = {lobe.scale, lobe.exponent, lobe.flattening, lobe.deviation_rad,
+                       lobe.masking};
+  return freeEnergy(p, maskingPair(alpha, mu_in, cosine), cosine, azimuth);
+}
+
+LobePolynomials fitPolynomials(const std::vector<LobeData>& data) {
+  double c[kCoefficients];
+  const LobePolynomials& start = kPublishedCode;
+  std::vector<int> fixed;
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) {
+      const auto row = static_cast<std::size_t>(i), column = static_cast<std::size_t>(j);
+      c[kScale + 4 * i + j] = start.scale[row][column];
+      c[kFlattening + 4 * i + j] = start.flattening[row][column];
+      if (start.flattening[row][column] == 0) fixed.push_back(kFlattening + 4 * i + j);
+    }
+  c[kExponent] = start.exponent[0];
+  c[kExponent + 1] = start.exponent[1];
+  c[kThird] = start.third_order;
+  ceres::Problem problem;
+  for (const LobeData& one : data)
+    if (one.order == 2 || one.order == 3)
+      problem.AddResidualBlock(
+          new ceres::NumericDiffCostFunction<PolynomialCost, ceres::CENTRAL, LobeData::kCosines + 1,
+                                             kCoefficients>(new PolynomialCost{one}),
+          nullptr, c);
+  problem.SetManifold(c, new ceres::SubsetManifold(kCoefficients, fixed));
+  ceres::Solver::Summary summary;
+  ceres::Solve(solverOptions(), &problem, &summary);
+  LobePolynomials result;
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = 0; j < 4; ++j) {
+      result.scale[i][j] = c[kScale + 4 * i + j];
+      result.flattening[i][j] = c[kFlattening + 4 * i + j];
+    }
+  result.exponent = {c[kExponent], c[kExponent + 1]};
+  result.third_order = c[kThird];
+  return result;
+}
+
+double lobeError(const LobeData& data, const std::function<double(double, double)>& model) {
+  double sum = 0;
+  for (int i = 0; i < kCells; ++i) {
+    const double difference = model(LobeData::cosine(i / LobeData::kAzimuths),
+                                    LobeData::azimuth(i % LobeData::kAzimuths)) -
+                              data.energy[static_cast<std::size_t>(i)];
+    sum += difference * difference;
+  }
+  return data.share > 0 ? std::sqrt(sum / kCells) / (data.share / (2 * kPi)) : 0;
+}
+
+}  // namespace glintmark

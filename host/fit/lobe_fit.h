@@ -1,0 +1,52 @@
+// Fits of lobes to simulated histograms. [PAT18] "Lobe Fitting"
+#pragma once
+#include <functional>
+#include <vector>
+
+#include "host/fit/lobe_model.h"
+#include "host/simulate/simulation.h"
+
+namespace glintmark {
+
+/// A histogram of one order, coarser and folded about the plane of incidence: energy per solid
+/// angle.
+struct LobeData {
+  static constexpr int kCosines = 16, kAzimuths = 16;  // azimuths over half a turn
+  double alpha = 0, mu_in = 1;
+  int order = 2;
+  std::vector<double> energy;  // kCosines x kAzimuths
+  double share = 0;            // over the hemisphere
+
+  /// Directions of cell centres.
+  static double cosine(int row) { return 1 - (row + 0.5) / kCosines; }
+  static double azimuth(int column) { return (column + 0.5) * std::numbers::pi / kAzimuths; }
+};
+/// Takes one order of a simulation with azimuth 0; order 0: all orders together.
+LobeData makeLobeData(const Simulation& simulation, int order);
+
+/// The five parameters of [PAT18], "Customization".
+struct FreeLobe {
+  double scale = 0;          // [0, inf)
+  double exponent = 1;       // eta of its roughness
+  double flattening = 1;     // sigma_n
+  double deviation_rad = 0;  // of the axis from the normal, towards the light's side negative
+  double masking = 0;        // importance of the masking term, [0, 1]
+  double error = 0;          // root mean square over the mean of the data
+};
+
+/// Fits one lobe freely, by Ceres.
+FreeLobe fitLobe(const LobeData& data);
+/// Its energy per solid angle.
+double freeLobeEnergy(const FreeLobe& lobe, double alpha, double mu_in, double cosine,
+                      double azimuth);
+
+/// Fits the polynomials to all data of orders 2 and 3 at once, starting from [PAT18]'s, in the
+/// sense of least squares over energy per solid angle.
+LobePolynomials fitPolynomials(const std::vector<LobeData>& data);
+
+/// Root mean square difference between a model of energy per solid angle (of cosine and azimuth)
+/// and the data, over the mean of the data.
+double lobeError(const LobeData& data,
+                 const std::function<double(double cosine, double azimuth)>& model);
+
+}  // namespace glintmark

@@ -1,0 +1,105 @@
+#include "host/fit/lobe_model.h"
+
+#include <algorithm>
+
+namespace glintmark {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+double cubic(const std::array<double, 4>& c, double x) {
+  return c[0] + x * (c[1] + x * (c[2] + x * c[3]));
+}
+
+}  // namespace
+
+const LobePolynomials kPublishedCode = {
+    .scale = {{{0.028813261153483097, -0.9215374811620882, 6.632726114385572, -4.5957022306534},
+               {-0.09663259042197028, 7.214143602200921, -19.786845117100626, 11.042058883797509},
+               {0.10935692546815767, -10.790405157520944, 28.50803667636733, -15.665258273262731},
+               {-0.04376425480146207, 5.2491960091879, -13.582707339717146, 7.348408854602616}}},
+    .exponent = {2.588380909161985, -1.3549594389004276},
+    .flattening = {{{0.8850557867448499, -1.2109761138443194, 0.22569832413951335,
+                     0.4498256199595464},
+                    {0.0856807009397115, 0.5659031384072539, 0, 0},
+                    {-0.07707463071513312, -1.384614678037336, 0.8565888280926491, 0},
+                    {0.010423083821992304, 0.8525591060832015, -0.6844738691665317, 0}}},
+    .third_order = 0.363902052363025};
+
+const LobePolynomials kPublishedText = {.scale = kPublishedCode.scale,
+                                        .exponent = {2.5958, -1.32697},
+                                        .flattening = {{{0.9136430, -1.655480, 1.39617, -0.320331},
+                                                        {0.0447239, 0.624740, 0, 0},
+                                                        {-0.1188440, -0.973213, 0.36902, 0},
+                                                        {0.1325770, 0.169750, 0, 0}}},
+                                        .third_order = 0.363902052363025};
+
+Lobe lobeAt(const LobePolynomials& p, double mu, double alpha) {
+  const auto surface = [&](const std::array<std::array<double, 4>, 4>& c) {
+    return cubic({cubic(c[0], alpha), cubic(c[1], alpha), cubic(c[2], alpha), cubic(c[3], alpha)},
+                 mu);
+  };
+  Lobe lobe;
+  lobe.scale = std::max(surface(p.scale), 0.0);
+  lobe.exponent = std::max(alpha * (p.exponent[0] + alpha * p.exponent[1]), 0.0);
+  lobe.flattening = std::clamp(surface(p.flattening), 0.05, 4.0);
+  return lobe;
+}
+
+double lobeShare(const Lobe& lobe) {
+  // Midpoint rule over mu = t^2, which tames mu^eta at 0.
+  constexpr int kSteps = 256;
+  double sum = 0;
+  for (int i = 0; i < kSteps; ++i) {
+    const double t = (i + 0.5) / kSteps;
+    sum += 2 * t * lobeEnergy(lobe.scale, lobe.exponent, lobe.flattening, t * t);
+  }
+  return 2 * kPi * sum / kSteps;
+}
+
+double lobeModelShare(const LobePolynomials& p, double alpha, double albedo, double mu_in,
+                      int order) {
+  const double second = lobeShare(lobeAt(p, mu_in, alpha));
+  if (order == 1) return albedo * std::max(1 - second * (1 + p.third_order), 0.0);
+  if (order == 2) return albedo * albedo * second;
+  return order == 3 ? albedo * albedo * albedo * p.third_order * second : 0;
+}
+
+double lobeModelEnergy(const LobePolynomials& p, double alpha, double albedo, double mu_in,
+                       double mu_out) {
+  const Lobe lobe = lobeAt(p, mu_in, alpha);
+  const double single = lobeModelShare(p, alpha, albedo, mu_in, 1);
+  const double colour = albedo * albedo * (1 + p.third_order * albedo);
+  return single * mu_out / kPi +
+         colour * lobeEnergy(lobe.scale, lobe.exponent, lobe.flattening, mu_out);
+}
+
+double eonAlbedo(double mu, double r) {
+  // [EON] Eq. 14, with G(theta) of Eq. 13.
+  const double a_f = 1 / (1 + (0.5 - 2 / (3 * kPi)) * r);
+  const double si = std::sqrt(std::max(1 - mu * mu, 0.0));
+  const double tangent_term =
+      mu > 1e-9 ? 2.0 / 3.0 * (si / mu) * (1 - si * si * si) - 2.0 / 3.0 * si : -2.0 / 3.0 * si;
+  const double g = si * (std::acos(std::clamp(mu, -1.0, 1.0)) - si * mu) + tangent_term;
+  return a_f + r * a_f / kPi * g;
+}
+
+EonValue eonBrdf(const glm::dvec3& in, const glm::dvec3& out, double r, double albedo) {
+  const double a_f = 1 / (1 + (0.5 - 2 / (3 * kPi)) * r);
+  const double s = glm::dot(in, out) - in.z * out.z;
+  const double t = s > 0 ? s / std::max({in.z, out.z, 1e-9}) : s;
+  EonValue value;
+  value.single = albedo / kPi * a_f * (1 + r * t);
+  // Its mean albedo, [EON] Eq. 16, and the energy that is missing given back.
+  const double mean = a_f * (1 + (2.0 / 3.0 - 28 / (15 * kPi)) * r);
+  const double colour = albedo * albedo * mean / (1 - albedo * std::max(1 - mean, 0.0));
+  value.multiple = colour / kPi * std::max(1 - eonAlbedo(in.z, r), 0.0) *
+                   std::max(1 - eonAlbedo(out.z, r), 0.0) / std::max(1 - mean, 1e-7);
+  return value;
+}
+
+double eonRoughness(double alpha) {
+  return std::clamp(alpha, 0.0, 1.0);
+}
+
+}  // namespace glintmark

@@ -1,0 +1,69 @@
+// Analytic models of a rough diffuse surface, in double precision: what the kernels approximate.
+//
+// [PAT18] "Analytical Fit of Diffuse Lobes". [EON] Portsmouth, Kutz, Hill, "EON: A Practical
+// Energy-Preserving Rough Diffuse BRDF", JCGT 14(1), 2025.
+#pragma once
+#include <array>
+#include <cmath>
+#include <glm/glm.hpp>
+#include <numbers>
+
+namespace glintmark {
+
+/// Coefficients of the lobes of scattering orders 2 and 3. [PAT18] "Parameters Fitting";
+/// polynomials in the roughness, lowest power first.
+struct LobePolynomials {
+  std::array<std::array<double, 4>, 4> scale{};       // sigma: of mu^0 to mu^3
+  std::array<double, 2> exponent{};                   // eta: of alpha, alpha^2
+  std::array<std::array<double, 4>, 4> flattening{};  // sigma_n: of mu^0 to mu^3
+  double third_order = 0;                             // order 3 over order 2, times the albedo
+};
+
+/// The coefficients of the code that [PAT18] gives, and those of its text, which belong to another
+/// fit. The text's scale goes with 1 / (2 pi), which halves the energy; like its code we take 1 /
+/// pi.
+extern const LobePolynomials kPublishedCode, kPublishedText;
+
+/// A lobe's parameters for one incidence and roughness.
+struct Lobe {
+  double scale = 0, exponent = 1, flattening = 1;
+};
+
+/// Evaluates the polynomials for the cosine of incidence `mu`, 0 to 1; scale is cut off at 0, where
+/// the published one is negative, and flattening kept in [0.05, 4].
+Lobe lobeAt(const LobePolynomials& polynomials, double mu, double alpha);
+
+/// Share of the incident energy per unit solid angle towards the cosine `mu_out`, at albedo 1:
+/// sigma (2 + eta) / pi mu^eta L(mu) / (2 pi). Templates serve automatic differentiation.
+template <typename T>
+T lobeEnergy(const T& scale, const T& exponent, const T& flattening, const T& mu_out) {
+  using std::pow;
+  using std::sqrt;
+  const T squash = 1.0 / (flattening * flattening) - 1.0;
+  const T shape = pow(mu_out, exponent) / sqrt(1.0 + mu_out * mu_out * squash);
+  return scale * (2.0 + exponent) * shape / (2.0 * std::numbers::pi * std::numbers::pi);
+}
+
+/// That energy over the hemisphere: the share of an order.
+double lobeShare(const Lobe& lobe);
+
+/// Energy per solid angle of a whole model: single scattering is a Lambertian lobe with what higher
+/// orders leave, so that all of it never adds up to more than came in.
+double lobeModelEnergy(const LobePolynomials& polynomials, double alpha, double albedo,
+                       double mu_in, double mu_out);
+/// Of it, what leaves in order 1, 2 or 3, over the hemisphere.
+double lobeModelShare(const LobePolynomials& polynomials, double alpha, double albedo, double mu_in,
+                      int order);
+
+/// [EON]: the BRDF of roughness r in [0, 1], single and multiple scattering, for unit directions.
+struct EonValue {
+  double single = 0, multiple = 0;
+};
+EonValue eonBrdf(const glm::dvec3& in, const glm::dvec3& out, double r, double albedo);
+/// Directional albedo of its single scattering at albedo 1, exact.
+double eonAlbedo(double mu, double r);
+/// The roughness r that stands for Beckmann roughness alpha: best fit to the simulation's
+/// single scattering (docs/multiple_scattering.md).
+double eonRoughness(double alpha);
+
+}  // namespace glintmark
