@@ -8,6 +8,7 @@
 
 #include "host/cli/bench_run.h"
 #include "host/cli/interrupt.h"
+#include "host/cli/msbrdf_bench.h"
 #include "host/cli/tan05_bench.h"
 #include "host/cli/tao21_bench.h"
 #include "host/cli/zk16_bench.h"
@@ -18,7 +19,7 @@ namespace {
 
 // In the order in which they are measured and printed.
 std::vector<BenchTable> allTables() {
-  return {zk16Bench(), tan05Bench(), tao21Bench()};
+  return {zk16Bench(), tan05Bench(), tao21Bench(), msbrdfBench()};
 }
 
 std::vector<std::string> namesOf(const std::vector<BenchTable>& tables) {

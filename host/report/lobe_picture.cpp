@@ -68,8 +68,8 @@ Image histogramPicture(const Simulation& simulation) {
                            static_cast<double>(std::max<std::uint64_t>(simulation.rays_done, 1))),
            [&simulation, side, order](double cosine, double azimuth) {
              const auto row = static_cast<std::size_t>((1 - cosine) * HF_COSINES);
-             const auto column = static_cast<std::size_t>(azimuth / (2 * std::numbers::pi) *
-                                                          HF_AZIMUTHS);
+             const auto column =
+                 static_cast<std::size_t>(azimuth / (2 * std::numbers::pi) * HF_AZIMUTHS);
              return static_cast<double>(
                  simulation.cell(side, order, std::min<std::size_t>(row, HF_COSINES - 1),
                                  std::min<std::size_t>(column, HF_AZIMUTHS - 1)));
