@@ -62,8 +62,8 @@ struct EonValue {
 EonValue eonBrdf(const glm::dvec3& in, const glm::dvec3& out, double r, double albedo);
 /// Directional albedo of its single scattering at albedo 1, exact.
 double eonAlbedo(double mu, double r);
-/// The roughness r that stands for Beckmann roughness alpha: best fit to the simulation's
-/// single scattering (docs/multiple_scattering.md).
+/// The roughness r of EON that we take for Beckmann roughness alpha: the same number, at most 1.
+/// EON's facets are not Beckmann's, so there is no r that makes the two alike.
 double eonRoughness(double alpha);
 
 }  // namespace glintmark
