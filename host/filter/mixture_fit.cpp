@@ -29,6 +29,8 @@ constexpr float kStartMix = 0.5f;
 constexpr float kLeastWeight = 1e-3f;
 // Normals that one task adds up in single precision before the sums continue in double.
 constexpr std::size_t kTaskNormals = 16384;
+// EM steps of the coarsest level, whose lobes all others begin with.
+constexpr int kRootIterations = 64;
 // Blocks per task.
 constexpr int kGrain = 8;
 
@@ -214,7 +216,10 @@ class MixtureFit {
     const Scratch& scratch = gather(geometry, texels);
     const auto resting = [&](int lane) { return block.moved[lane] < options_.tolerance; };
     int iterations = 0, converged = 0;
-    while (iterations < options_.max_iterations && converged < texels.count) {
+    const bool root = level == level_count_ - 1;
+    const int limit =
+        root ? std::max(kRootIterations, options_.max_iterations) : options_.max_iterations;
+    while (iterations < limit && converged < texels.count) {
       expect(geometry, texels, scratch, false, block);
       maximizeBlock(block, options_.lobes);
       ++iterations;

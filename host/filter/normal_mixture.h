@@ -39,9 +39,9 @@ enum class MixtureOrder {
 
 struct MixtureOptions {
   int lobes = 4;  // 1..kMaxLobes
-  MixtureOrder order = MixtureOrder::kColours;
+  MixtureOrder order = MixtureOrder::kScanline;
   int sweeps = 1;           // over each level, coarse to fine, >= 1
-  int max_iterations = 12;  // EM steps of a texel in a sweep, >= 1
+  int max_iterations = 4;   // EM steps of a texel in a sweep, >= 1; the coarsest level has more
   float tolerance = 2e-3f;  // converged when no weight or mean moves further in a step, > 0
   float prior_weight = 1;   // the paper's C, >= 0
   int threads = 0;          // 0: all cores
