@@ -68,7 +68,7 @@ TEST(MipChain, WeighsTexelsByTheAreaTheyShare) {
   EXPECT_NEAR(makeMipChain(three).levels[1].pixels[0], 37, 1e-5);
   Image five(5, 1, 1);
   five.pixels = {1, 2, 4, 8, 16};
-  const Image& half = makeMipChain(five).levels[1];
+  const Image half = makeMipChain(five).levels[1];
   EXPECT_NEAR(half.pixels[0], (1 + 2 + 0.5 * 4) / 2.5, 1e-6);
   EXPECT_NEAR(half.pixels[1], (0.5 * 4 + 8 + 16) / 2.5, 1e-6);
   EXPECT_THROW(makeMipChain(Image()), Error);
