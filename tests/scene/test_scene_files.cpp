@@ -7,16 +7,18 @@ namespace glintmark {
 namespace {
 
 TEST(SceneFiles, AllScenesAreListedAndLoad) {
-  const std::vector<std::string> expected = {"brushed",      "car",     "circular_brushing",
-                                             "dress",        "glitter", "sand",
-                                             "screen_plane", "snow",    "sponza"};
+  const std::vector<std::string> expected = {
+      "area_cloth", "area_glass",        "area_knot",   "area_plane", "armour",       "brushed",
+      "car",        "circular_brushing", "desert",      "disk",       "dress",        "glitter",
+      "rough_knot", "rough_metal",       "rough_plane", "sand",       "screen_plane", "snow",
+      "sponza"};
   EXPECT_EQ(listScenes(), expected);
   for (const std::string& name : expected) {
     const Scene scene = load(name);
     EXPECT_EQ(scene.name, name);
     EXPECT_FALSE(scene.description.empty()) << name;
     EXPECT_FALSE(scene.views.empty()) << name;
-    EXPECT_FALSE(scene.lights.empty()) << name;
+    EXPECT_FALSE(scene.lights.empty() && scene.area_lights.empty()) << name;
     EXPECT_TRUE(scene.notes.empty()) << name << ": " << scene.notes[0];
   }
 }
