@@ -2,15 +2,15 @@
 // kernels. Preprocessor constants and one struct only; rules as in types.h.
 //
 // A surface is a square tile of heights that repeats in x and y, cut into two flat triangles per
-// cell by the diagonal from (x, y) to (x + 1, y + 1). It is made for roughness 1; the kernels stretch
-// space so that every roughness, also an anisotropic one, is the same surface.
+// cell by the diagonal from (x, y) to (x + 1, y + 1). It is made for roughness 1; the kernels
+// stretch space so that every roughness, also an anisotropic one, is the same surface.
 #ifndef GLINTMARK_HEIGHTFIELD_H
 #define GLINTMARK_HEIGHTFIELD_H
 
 #define HF_TILE 256u  // texels per side, a power of two
 #define HF_BLOCK_SHIFT 1u
 #define HF_BLOCKS (HF_TILE >> HF_BLOCK_SHIFT)  // blocks per side of the cone map
-#define HF_MODES 64u  // wave numbers 0 to 63 along x, -63 to 63 along y
+#define HF_MODES 64u                           // wave numbers 0 to 63 along x, -63 to 63 along y
 #define HF_MODE_ROWS (2u * HF_MODES - 1u)
 
 // Words of the height buffer: one row more than the tile has, so that the row above needs no
@@ -36,9 +36,9 @@
 #define HF_CELLS (HF_COSINES * HF_AZIMUTHS)
 #define HF_MAX_ORDERS 6u
 #define HF_COUNTERS (2u * HF_MAX_ORDERS * HF_CELLS)
-#define HF_ABSORBED HF_COUNTERS                       // one per order
-#define HF_LEFT_OVER (HF_COUNTERS + HF_MAX_ORDERS)    // alive after the last order
-#define HF_GAVE_UP (HF_LEFT_OVER + 1u)                // lost after HF_MOST_STEPS cells and jumps
+#define HF_ABSORBED HF_COUNTERS                     // one per order
+#define HF_LEFT_OVER (HF_COUNTERS + HF_MAX_ORDERS)  // alive after the last order
+#define HF_GAVE_UP (HF_LEFT_OVER + 1u)              // lost after HF_MOST_STEPS cells and jumps
 #define HF_HISTOGRAM_WORDS (HF_GAVE_UP + 1u)
 
 // Cells and jumps that one flight between two bounces may take.

@@ -157,8 +157,9 @@ void FrameRenderer::Impl::makeLaunches(Band& band) {
     }
 
     if (launch.config.multiscatter != Multiscatter::kOff || launch.config.metal_compensation)
-      launch.scatter = uploadItems(device, std::vector{prepareMultiscatter(material, launch.config)},
-                                   "a material's scattering");
+      launch.scatter =
+          uploadItems(device, std::vector{prepareMultiscatter(material, launch.config)},
+                      "a material's scattering");
 
     FrameParams params{};
     params.ray_origin = toFloat4(band.camera.ray_origin);

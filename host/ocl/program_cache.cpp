@@ -4,9 +4,9 @@
 #include <map>
 #include <optional>
 
+#include "host/core/disk_cache.h"
 #include "host/core/stopwatch.h"
 #include "host/ocl/build_failure.h"
-#include "host/core/disk_cache.h"
 #include "host/ocl/kernel_folder.h"
 #include "host/ocl/opencl.h"
 

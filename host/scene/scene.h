@@ -11,8 +11,8 @@
 
 #include "host/core/planes.h"
 #include "host/core/shared_types.h"
-#include "host/scene/area_light.h"
 #include "host/filter/normal_map.h"
+#include "host/scene/area_light.h"
 
 namespace glintmark {
 
@@ -60,8 +60,8 @@ struct NormalMapSource {
   int lobes = 4;  // Gaussians per texel where mixtures stand for the map, 1 to 8
 };
 
-/// Diffuse lobe: Lambert's, or a rough surface that light leaves after several bounces, [PAT18] with
-/// its own coefficients or ours, or energy-preserving Oren-Nayar.
+/// Diffuse lobe: Lambert's, or a rough surface that light leaves after several bounces, [PAT18]
+/// with its own coefficients or ours, or energy-preserving Oren-Nayar.
 enum class DiffuseModel : int { kLambert, kPublished, kRefit, kEon };
 
 /// [ZK16] Sect. 4.5, ready for the device, with what selects the effects.
