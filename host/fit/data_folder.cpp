@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 namespace {
 
 fs::path dataFolder() {
-  if (const char* folder = std::getenv("GLINTMARK_DATA"); folder != nullptr && *folder != '\0') {
+  if (const char* folder = std::getenv("GLINTMARK_TABLES"); folder != nullptr && *folder != '\0') {
     return folder;
   }
   std::error_code error;
@@ -31,8 +31,8 @@ fs::path findDataFile(const std::string& name) {
   const fs::path file = dataFolder() / name;
   std::error_code error;
   if (fs::is_regular_file(file, error)) return file;
-  throw Error(
-      fmt::format("no data file {}; set GLINTMARK_DATA to the folder that has it", file.string()));
+  throw Error(fmt::format("no data file {}; set GLINTMARK_TABLES to the folder that has it",
+                          file.string()));
 }
 
 }  // namespace glintmark

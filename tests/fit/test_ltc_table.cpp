@@ -111,14 +111,14 @@ TEST(LtcTableFile, MissingFileIsNamed) {
 
 TEST(DataFolder, FollowsTheEnvironment) {
   const TempFolder folder;
-  ASSERT_EQ(setenv("GLINTMARK_DATA", folder.path().c_str(), 1), 0);
+  ASSERT_EQ(setenv("GLINTMARK_TABLES", folder.path().c_str(), 1), 0);
   const std::string missing = messageOf<Error>([] { shippedLtcTable(Ndf::kGgx); });
-  EXPECT_NE(missing.find("ltc_ggx.table; set GLINTMARK_DATA"), std::string::npos) << missing;
+  EXPECT_NE(missing.find("ltc_ggx.table; set GLINTMARK_TABLES"), std::string::npos) << missing;
 
   std::ofstream(folder / "ltc_ggx.table", std::ios::binary) << serializeLtcTable(numberedTable(8));
   const std::string swapped = messageOf<Error>([] { shippedLtcTable(Ndf::kGgx); });
   EXPECT_NE(swapped.find("holds the beckmann distribution, expected ggx"), std::string::npos);
-  unsetenv("GLINTMARK_DATA");
+  unsetenv("GLINTMARK_TABLES");
   EXPECT_EQ(shippedLtcTable(Ndf::kGgx).size, LTC_SIZE_DEFAULT);
 }
 
