@@ -95,6 +95,20 @@ void BenchRun::measureCases(const std::string& table, const std::vector<std::str
   }
 }
 
+Record BenchRun::record(const std::string& table, const std::string& case_name,
+                        const std::string& metric, const std::string& unit,
+                        const std::vector<double>& samples, const std::string& note) const {
+  Record record;
+  record.table = table;
+  record.case_ = case_name;
+  record.metric = metric;
+  record.unit = unit;
+  record.value = summarize(samples);
+  record.note = note;
+  record.config = key_;
+  return record;
+}
+
 std::vector<Record> BenchRun::recordsOf(const std::string& table) const {
   std::vector<Record> chosen;
   std::ranges::copy_if(records_, std::back_inserter(chosen),

@@ -50,6 +50,11 @@ class BenchRun {
       const std::vector<std::string>& metrics,
       const std::function<std::vector<Record>(const std::string& case_name)>& measure);
 
+  /// A record of `table` with the key as its configuration; `samples` not empty.
+  Record record(const std::string& table, const std::string& case_name, const std::string& metric,
+                const std::string& unit, const std::vector<double>& samples,
+                const std::string& note = "") const;
+
   /// Records of this run, of one table or of all, in order.
   std::vector<Record> recordsOf(const std::string& table) const;
   const std::vector<Record>& records() const { return records_; }

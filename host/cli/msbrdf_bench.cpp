@@ -32,26 +32,17 @@ using Samples = std::vector<double>;
 
 class MsbrdfCase {
  public:
-  MsbrdfCase(BenchRun& run, const std::string& name) : run_(run) {
-    base_.table = kTable;
-    base_.case_ = name;
-    base_.config = run.key();
-  }
+  MsbrdfCase(BenchRun& run, const std::string& name) : run_(run), name_(name) {}
   void add(const std::string& metric, const std::string& unit, const Samples& samples,
            bool valid = true, const std::string& note = "") {
-    Record record = base_;
-    record.metric = metric;
-    record.unit = unit;
-    record.value = summarize(samples);
-    record.valid = valid;
-    record.note = note;
-    records_.push_back(std::move(record));
+    records_.push_back(run_.record(kTable, name_, metric, unit, samples, note));
+    records_.back().valid = valid;
   }
   std::vector<Record> take() { return std::move(records_); }
 
  private:
   BenchRun& run_;
-  Record base_;
+  std::string name_;
   std::vector<Record> records_;
 };
 

@@ -17,7 +17,6 @@
 namespace glintmark {
 namespace {
 
-constexpr double kMsPerNs = 1e-6;
 constexpr const char* kKnobView = "oblique";
 constexpr const char* kSummaryView = "near";
 constexpr int kLobeCounts[] = {1, 2, 4, 8};
@@ -27,11 +26,6 @@ constexpr int kFitSize_px = 512;
 constexpr double kFraction = 0x1p-32;
 
 using Samples = std::vector<double>;
-
-double shadeMs(FrameRenderer& renderer) {
-  stopIfInterrupted();
-  return renderer.shade().shading_event_ns * kMsPerNs;
-}
 
 // Of a full frame at the command line's size.
 ShadingOptions fullOptions(const BenchRun& run, NormalMethod method) {

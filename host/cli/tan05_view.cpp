@@ -15,7 +15,6 @@
 namespace glintmark {
 namespace {
 
-constexpr double kMsPerNs = 1e-6;
 constexpr int kPaperSize_px = 500;
 // Of errors without times: distances shrink what is seen, not what it means.
 constexpr double kDifferenceGain = 4;
@@ -27,10 +26,6 @@ Image display(const Image& radiance, const Scene& scene) {
 // Display values where `coverage` covers, in one row.
 Image coveredDisplay(const Image& radiance, const Scene& scene) {
   return display(coveredPixels(radiance), scene);
-}
-
-bool isSane(const Image& image) {
-  return std::ranges::all_of(image.pixels, [](float v) { return std::isfinite(v) && v >= 0; });
 }
 
 struct Truth {
@@ -177,15 +172,7 @@ Tan05Scene::Tan05Scene(BenchRun& run, const std::string& name)
 Record tan05Record(const BenchRun& run, const std::string& case_name, const std::string& metric,
                    const std::string& unit, const std::vector<double>& samples,
                    const std::string& note) {
-  Record record;
-  record.table = "tan05";
-  record.case_ = case_name;
-  record.metric = metric;
-  record.unit = unit;
-  record.value = summarize(samples);
-  record.note = note;
-  record.config = run.key();
-  return record;
+  return run.record("tan05", case_name, metric, unit, samples, note);
 }
 
 View atDistance(const View& view, double factor) {
@@ -218,8 +205,7 @@ Tan05View measureTan05View(BenchRun& run, const Tan05Scene& scene, const View& v
   std::vector<std::vector<double>> times_ms(renderers.size());
   for (int rep = 0; rep < settings.reps; ++rep)
     for (std::size_t m = 0; m < renderers.size(); ++m) {
-      stopIfInterrupted();
-      times_ms[m].push_back(renderers[m]->shade().shading_event_ns * kMsPerNs);
+      times_ms[m].push_back(shadeMs(*renderers[m]));
     }
 
   Tan05View result;

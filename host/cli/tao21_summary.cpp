@@ -27,11 +27,6 @@ constexpr int kTimedTableSize = LTC_SIZE_MIN;
 
 using Samples = std::vector<double>;
 
-double shadeMs(FrameRenderer& renderer) {
-  stopIfInterrupted();
-  return renderer.shade().shading_event_ns * kMsPerNs;
-}
-
 // Times of two renderers in turn, as ratios first / second, and those of the first [ms].
 struct InTurn {
   Samples ratio, first_ms;

@@ -8,8 +8,8 @@
 #include "host/core/statistics.h"
 #include "host/frame/ground_truth.h"
 #include "host/report/metrics.h"
+#include "host/report/picture_strip.h"
 #include "host/report/tao21_table.h"
-#include "host/report/text_drawing.h"
 #include "host/report/tonemap.h"
 
 namespace glintmark {
@@ -17,7 +17,6 @@ namespace {
 
 constexpr double kMsPerNs = 1e-6;
 constexpr int kMethodCount = static_cast<int>(kTao21Methods.size());
-constexpr int kLabelHeight_px = 12;
 
 ShadingOptions methodOptions(ShadingOptions options, int method) {
   options.ltc_method = static_cast<LtcMethod>(method);
@@ -37,33 +36,13 @@ std::vector<std::vector<double>> measureTimes(BenchRun& run, const Scene& scene,
   std::vector<std::vector<double>> times_ms(kMethodCount);
   for (int rep = 0; rep < settings.reps; ++rep)
     for (std::size_t m = 0; m < renderers.size(); ++m) {
-      stopIfInterrupted();
-      times_ms[m].push_back(renderers[m]->shade().shading_event_ns * kMsPerNs);
+      times_ms[m].push_back(shadeMs(*renderers[m]));
     }
   return times_ms;
 }
 
 Image display(const Image& radiance, double exposure) {
   return toneMap(radiance, {.exposure = exposure});
-}
-
-// The pictures side by side, each under its name.
-Image strip(const std::vector<std::pair<std::string, Image>>& pictures) {
-  const int width = pictures.front().second.width, height = pictures.front().second.height;
-  Image image(width * static_cast<int>(pictures.size()), height + kLabelHeight_px, 3);
-  int left = 0;
-  for (const auto& [name, picture] : pictures) {
-    drawText(image, left + 3, 2, name, 1, {1, 1, 1});
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x)
-        std::ranges::copy(picture.at(x, y), image.at(left + x, y + kLabelHeight_px).begin());
-    left += width;
-  }
-  return image;
-}
-
-bool isSane(const Image& image) {
-  return std::ranges::all_of(image.pixels, [](float v) { return std::isfinite(v) && v >= 0; });
 }
 
 double meanOf(const Image& image) {
@@ -90,6 +69,15 @@ Image coveredPixels(const Image& image) {
   return coveredOf(image, image);
 }
 
+bool isSane(const Image& image) {
+  return std::ranges::all_of(image.pixels, [](float v) { return std::isfinite(v) && v >= 0; });
+}
+
+double shadeMs(FrameRenderer& renderer) {
+  stopIfInterrupted();
+  return renderer.shade().shading_event_ns * kMsPerNs;
+}
+
 Tao21Settings tao21Settings(const BenchRun& run) {
   const ImageSize size = parseSize(run.options().size);
   Tao21Settings settings;
@@ -112,15 +100,7 @@ const std::vector<std::string>& tao21Metrics() {
 Record tao21Record(const BenchRun& run, const std::string& case_name, const std::string& metric,
                    const std::string& unit, const std::vector<double>& samples,
                    const std::string& note) {
-  Record record;
-  record.table = "tao21";
-  record.case_ = case_name;
-  record.metric = metric;
-  record.unit = unit;
-  record.value = summarize(samples);
-  record.note = note;
-  record.config = run.key();
-  return record;
+  return run.record("tao21", case_name, metric, unit, samples, note);
 }
 
 Tao21View measureTao21View(BenchRun& run, const Scene& scene, const View& view,
@@ -169,7 +149,7 @@ Tao21View measureTao21View(BenchRun& run, const Scene& scene, const View& view,
     pictures.emplace_back(method, display(image, exposure));
   }
   pictures.emplace_back("truth", display(truth.mean, exposure));
-  result.picture = strip(pictures);
+  result.picture = pictureStrip(pictures);
   return result;
 }
 

@@ -44,4 +44,10 @@ Record tao21Record(const BenchRun& run, const std::string& case_name, const std:
 /// The pixels that `image` covers (alpha 1), in one row of RGB.
 Image coveredPixels(const Image& image);
 
+/// No value is negative or not finite.
+bool isSane(const Image& image);
+
+/// Shades once; kernel event time [ms]. Throws Interrupted after Ctrl-C.
+double shadeMs(FrameRenderer& renderer);
+
 }  // namespace glintmark
