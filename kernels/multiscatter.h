@@ -5,6 +5,10 @@
 
 #define MS_DEGREES 8  // coefficients per polynomial
 
+// What a rough mirror reflects by one bounce falls and rises again within cosines of the size of its
+// roughness. It is a polynomial of t = mu (1 + s) / (mu + s) with s = MS_WARP alpha.
+#define MS_WARP 2.0f
+
 typedef struct MultiscatterMaterial {
   float4 single;                   // rgb: colour of single scattering over pi; w unused
   float4 multiple;                 // rgb: of the higher orders, with their normalisation; w unused
@@ -13,8 +17,11 @@ typedef struct MultiscatterMaterial {
   float4 scale;                    // lobes: sigma of the cosine of incidence
   float4 flattening;               // lobes: sigma_n of it
   float compensation[MS_DEGREES];  // metals: 1 / energy of one bounce - 1, of the view's cosine
+                                   // warped by MS_WARP
   float exponent;                  // lobes: eta - 1; EON: its roughness
-  float padding[3];
+  float alpha;                     // lobes: roughness of the masking factor
+  float masking;                   // lobes: importance of the masking factor, [0, 1]
+  float warp;                      // metals: MS_WARP times the roughness
 } MultiscatterMaterial;
 
 #endif

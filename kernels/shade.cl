@@ -60,7 +60,10 @@ kernel void shade(global const uint* planes, constant const FrameParams* frame,
   const SmithLambda lambda_view = smithLambda(view, material->alpha_g);
 
 #if MULTISCATTER != MULTISCATTER_OFF
-  const vfloat view_term = viewTerm(view.z, scatter);
+  const ScatterView view_terms = scatterView(view, scatter);
+#endif
+#if METAL_COMPENSATION
+  const vfloat lost_energy = lostEnergy(view.z, scatter);
 #endif
 
 #if GLINT
@@ -105,11 +108,11 @@ kernel void shade(global const uint* planes, constant const FrameParams* frame,
     }
 #endif
 #if METAL_COMPENSATION
-    ratio = compensate(ratio, view.z, material, scatter);
+    ratio = compensate(ratio, lost_energy, material);
 #endif
     addLight(lobe, ratio, material, light, &sum);
 #if MULTISCATTER != MULTISCATTER_OFF
-    addScattered(basis, view, view_term, scatter, light, taps, &sum);
+    addScattered(basis, view, view_terms, scatter, light, taps, &sum);
 #endif
   }
 #endif

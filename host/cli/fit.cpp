@@ -1,9 +1,20 @@
 // glintmark fit: what is computed once, before any frame.
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <filesystem>
+
 #include "host/cli/fit_commands.h"
+#include "host/core/error.h"
+#include "host/report/atomic_file.h"
 
 namespace glintmark {
+
+void requireWritablePicture(const std::string& file) {
+  if (std::filesystem::path(file).extension() != ".png")
+    throw Error(fmt::format("--picture '{}' must end in .png", file));
+  requireWritableFile(file);
+}
 
 void addFitCommand(CLI::App& app, CommandLine& line) {
   CLI::App* command = app.add_subcommand("fit", "Computes the tables that shading needs");

@@ -41,12 +41,7 @@ reference::Ndf parseNdf(const std::string& name) {
 void check(const FitLtcCommand& command) {
   parseNdf(command.ndf);
   if (!command.output.empty()) requireWritableFile(command.output);
-  if (!command.picture.empty()) {
-    if (std::filesystem::path(command.picture).extension() != ".png") {
-      throw Error(fmt::format("--picture '{}' must end in .png", command.picture));
-    }
-    requireWritableFile(command.picture);
-  }
+  if (!command.picture.empty()) requireWritablePicture(command.picture);
   if (command.size < LTC_SIZE_MIN || command.size > LTC_SIZE_MAX) {
     throw Error(fmt::format("--size {} is not possible; sizes are {} to {}", command.size,
                             LTC_SIZE_MIN, LTC_SIZE_MAX));

@@ -11,12 +11,6 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr int kCells = LobeData::kCosines * LobeData::kAzimuths;
 
-// Smith's masking for Beckmann slopes, rational fit of Walter et al. 2007.
-double masking(double mu, double alpha) {
-  const double a = mu / (alpha * std::sqrt(std::max(1 - mu * mu, 1e-12)));
-  return a >= 1.6 ? 1 : a * (3.535 + 2.181 * a) / (1 + a * (2.276 + 2.577 * a));
-}
-
 template <typename T>
 T freeEnergy(const T* p, double mask, double cosine, double azimuth) {
   using std::cos;
@@ -28,8 +22,9 @@ T freeEnergy(const T* p, double mask, double cosine, double azimuth) {
   return (1.0 - p[4] + p[4] * mask) * lobeEnergy(p[0], p[1], p[2], mu);
 }
 
+// The factor for masking and shadowing of full importance.
 double maskingPair(double alpha, double mu_in, double cosine) {
-  return masking(mu_in, alpha) * masking(cosine, alpha);
+  return maskingFactor(1, alpha, mu_in, cosine);
 }
 
 // One histogram against one free lobe.
@@ -51,7 +46,8 @@ struct FreeCost {
 };
 
 // The coefficients in the order of LobePolynomials. Those that [PAT18] has no power for stay 0.
-constexpr int kScale = 0, kExponent = 16, kFlattening = 18, kThird = 34, kCoefficients = 35;
+constexpr int kScale = 0, kExponent = 16, kFlattening = 18, kThird = 34, kMasking = 35,
+              kCoefficients = 36;
 
 double surfaceAt(const double* c, double mu, double alpha) {
   double sum = 0;
@@ -71,18 +67,34 @@ struct PolynomialCost {
     const double scale = surfaceAt(c + kScale, data.mu_in, data.alpha);
     const double exponent = data.alpha * (c[kExponent] + data.alpha * c[kExponent + 1]);
     const double flattening = surfaceAt(c + kFlattening, data.mu_in, data.alpha);
-    if (exponent < 0.0 || flattening < 0.05) return false;
+    if (exponent < 0 || flattening < 0.05) return false;
     const double order = data.order == 3 ? c[kThird] : 1.0;
     for (int row = 0; row < LobeData::kCosines; ++row) {
       double mean = 0;
       for (int column = 0; column < LobeData::kAzimuths; ++column)
         mean += data.energy[static_cast<std::size_t>(row * LobeData::kAzimuths + column)];
       mean /= LobeData::kAzimuths;
-      residuals[row] =
-          order * lobeEnergy(scale, exponent, flattening, LobeData::cosine(row)) - mean;
+      const double cosine = LobeData::cosine(row);
+      residuals[row] = order * maskingFactor(c[kMasking], data.alpha, data.mu_in, cosine) *
+                           lobeEnergy(scale, exponent, flattening, cosine) -
+                       mean;
     }
     // A scale below 0 costs; the kernel would cut it off.
     residuals[LobeData::kCosines] = std::min(scale, 0.0);
+    return true;
+  }
+};
+
+// All orders of one simulation against EON.
+struct EonCost {
+  const LobeData& data;
+
+  bool operator()(const double* const p, double* residuals) const {
+    const double r = EonRoughness{p[0], p[1]}.at(data.alpha);
+    for (int i = 0; i < kCells; ++i)
+      residuals[i] = eonEnergy(r, data.mu_in, LobeData::cosine(i / LobeData::kAzimuths),
+                               LobeData::azimuth(i % LobeData::kAzimuths)) -
+                     data.energy[static_cast<std::size_t>(i)];
     return true;
   }
 };
@@ -126,20 +138,21 @@ LobeData makeLobeData(const Simulation& simulation, int order) {
   return data;
 }
 
-FreeLobe fitLobe(const LobeData& data) {
+FreeLobe fitLobe(const LobeData& data, bool masking) {
   FreeLobe lobe;
   if (data.share <= 0) return lobe;
   const double mean = data.share / (2 * kPi);
-  double p[5] = {data.share * kPi, 1, 0.9, 0, 0.1};
+  double p[5] = {data.share * kPi, 1, 0.9, 0, masking ? 0.1 : 0};
   ceres::Problem problem;
   problem.AddResidualBlock(new ceres::AutoDiffCostFunction<FreeCost, kCells, 5>(
                                new FreeCost{data, 1 / (mean * std::sqrt(kCells))}),
                            nullptr, p);
-  const double low[5] = {0, 0, 0.1, -1.2, 0}, high[5] = {100, 20, 4, 1.2, 1};
+  const double low[5] = {0, 0, 0.1, -1.2, 0}, high[5] = {100, 1023, 4, 1.2, 1};
   for (int i = 0; i < 5; ++i) {
     problem.SetParameterLowerBound(p, i, low[i]);
     problem.SetParameterUpperBound(p, i, high[i]);
   }
+  if (!masking) problem.SetManifold(p, new ceres::SubsetManifold(5, {4}));
   ceres::Solver::Summary summary;
   ceres::Solve(solverOptions(), &problem, &summary);
   lobe = {p[0], p[1], p[2], p[3], p[4], std::sqrt(2 * summary.final_cost)};
@@ -153,9 +166,10 @@ double freeLobeEnergy(const FreeLobe& lobe, double alpha, double mu_in, double c
   return freeEnergy(p, maskingPair(alpha, mu_in, cosine), cosine, azimuth);
 }
 
-LobePolynomials fitPolynomials(const std::vector<LobeData>& data) {
+LobePolynomials fitPolynomials(const std::vector<LobeData>& data, bool masking) {
   double c[kCoefficients];
-  const LobePolynomials& start = kPublishedCode;
+  // One after another, as in [PAT18]: masking comes last.
+  const LobePolynomials start = masking ? fitPolynomials(data) : kPublishedCode;
   std::vector<int> fixed;
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j) {
@@ -167,6 +181,8 @@ LobePolynomials fitPolynomials(const std::vector<LobeData>& data) {
   c[kExponent] = start.exponent[0];
   c[kExponent + 1] = start.exponent[1];
   c[kThird] = start.third_order;
+  c[kMasking] = masking ? 0.1 : 0;
+  if (!masking) fixed.push_back(kMasking);
   ceres::Problem problem;
   for (const LobeData& one : data)
     if (one.order == 2 || one.order == 3)
@@ -174,6 +190,8 @@ LobePolynomials fitPolynomials(const std::vector<LobeData>& data) {
           new ceres::NumericDiffCostFunction<PolynomialCost, ceres::CENTRAL, LobeData::kCosines + 1,
                                              kCoefficients>(new PolynomialCost{one}),
           nullptr, c);
+  problem.SetParameterLowerBound(c, kMasking, 0);
+  problem.SetParameterUpperBound(c, kMasking, 1);
   problem.SetManifold(c, new ceres::SubsetManifold(kCoefficients, fixed));
   ceres::Solver::Summary summary;
   ceres::Solve(solverOptions(), &problem, &summary);
@@ -185,7 +203,31 @@ LobePolynomials fitPolynomials(const std::vector<LobeData>& data) {
     }
   result.exponent = {c[kExponent], c[kExponent + 1]};
   result.third_order = c[kThird];
+  result.masking = c[kMasking];
   return result;
+}
+
+double eonEnergy(double r, double mu_in, double cosine, double azimuth) {
+  const double sine_in = std::sqrt(1 - mu_in * mu_in), sine = std::sqrt(1 - cosine * cosine);
+  const EonValue value = eonBrdf(
+      {sine_in, 0, mu_in}, {sine * std::cos(azimuth), sine * std::sin(azimuth), cosine}, r, 1);
+  return (value.single + value.multiple) * cosine;
+}
+
+EonRoughness fitEonRoughness(const std::vector<LobeData>& totals) {
+  double p[2] = {0.7, 0.3};
+  ceres::Problem problem;
+  for (const LobeData& one : totals)
+    problem.AddResidualBlock(
+        new ceres::NumericDiffCostFunction<EonCost, ceres::CENTRAL, kCells, 2>(new EonCost{one}),
+        nullptr, p);
+  problem.SetParameterLowerBound(p, 0, 0);
+  problem.SetParameterUpperBound(p, 0, 2);
+  problem.SetParameterLowerBound(p, 1, 0);
+  problem.SetParameterUpperBound(p, 1, 10);
+  ceres::Solver::Summary summary;
+  ceres::Solve(solverOptions(), &problem, &summary);
+  return {p[0], p[1]};
 }
 
 double lobeError(const LobeData& data, const std::function<double(double, double)>& model) {

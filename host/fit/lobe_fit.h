@@ -32,17 +32,26 @@ struct FreeLobe {
   double deviation_rad = 0;  // of the axis from the normal, towards the light's side negative
   double masking = 0;        // importance of the masking term, [0, 1]
   double error = 0;          // root mean square over the mean of the data
+
+  /// The lobe's own roughness, in [0, 1]: eta = 2^(10 (1 - roughness)) - 1.
+  double roughness() const { return 1 - std::log2(exponent + 1) / 10; }
 };
 
-/// Fits one lobe freely, by Ceres.
-FreeLobe fitLobe(const LobeData& data);
+/// Fits one lobe freely, by Ceres: all five parameters, or four and no masking.
+FreeLobe fitLobe(const LobeData& data, bool masking = true);
 /// Its energy per solid angle.
 double freeLobeEnergy(const FreeLobe& lobe, double alpha, double mu_in, double cosine,
                       double azimuth);
 
 /// Fits the polynomials to all data of orders 2 and 3 at once, starting from [PAT18]'s, in the
-/// sense of least squares over energy per solid angle.
-LobePolynomials fitPolynomials(const std::vector<LobeData>& data);
+/// sense of least squares over energy per solid angle. `masking`: one importance m of masking and
+/// shadowing is fitted as well, else it is 0 as [PAT18] leaves it.
+LobePolynomials fitPolynomials(const std::vector<LobeData>& data, bool masking = false);
+
+/// Fits EON's roughness to data of all orders together at albedo 1, in the same sense.
+EonRoughness fitEonRoughness(const std::vector<LobeData>& totals);
+/// EON's energy per solid angle at albedo 1, light at azimuth 0.
+double eonEnergy(double r, double mu_in, double cosine, double azimuth);
 
 /// Root mean square difference between a model of energy per solid angle (of cosine and azimuth)
 /// and the data, over the mean of the data.

@@ -43,7 +43,26 @@ Lobe lobeAt(const LobePolynomials& p, double mu, double alpha) {
   lobe.scale = std::max(surface(p.scale), 0.0);
   lobe.exponent = std::max(alpha * (p.exponent[0] + alpha * p.exponent[1]), 0.0);
   lobe.flattening = std::clamp(surface(p.flattening), 0.05, 4.0);
+  lobe.masking = p.masking;
+  lobe.alpha = alpha;
+  lobe.mu_in = mu;
   return lobe;
+}
+
+double smithMasking(double mu, double alpha) {
+  // With z / (alpha sin) multiplied out, so that alpha 0 and mu 1 need no care.
+  const double slope = alpha * std::sqrt(std::max(1 - mu * mu, 0.0));
+  if (mu >= 1.6 * slope) return 1;
+  return mu * (3.535 * slope + 2.181 * mu) / (slope * slope + mu * (2.276 * slope + 2.577 * mu));
+}
+
+double maskingFactor(double m, double alpha, double mu_in, double mu_out) {
+  return 1 - m + m * smithMasking(mu_in, alpha) * smithMasking(mu_out, alpha);
+}
+
+double lobeEnergy(const Lobe& lobe, double mu_out) {
+  return maskingFactor(lobe.masking, lobe.alpha, lobe.mu_in, mu_out) *
+         lobeEnergy(lobe.scale, lobe.exponent, lobe.flattening, mu_out);
 }
 
 double lobeShare(const Lobe& lobe) {
@@ -52,7 +71,7 @@ double lobeShare(const Lobe& lobe) {
   double sum = 0;
   for (int i = 0; i < kSteps; ++i) {
     const double t = (i + 0.5) / kSteps;
-    sum += 2 * t * lobeEnergy(lobe.scale, lobe.exponent, lobe.flattening, t * t);
+    sum += 2 * t * lobeEnergy(lobe, t * t);
   }
   return 2 * kPi * sum / kSteps;
 }
@@ -70,8 +89,7 @@ double lobeModelEnergy(const LobePolynomials& p, double alpha, double albedo, do
   const Lobe lobe = lobeAt(p, mu_in, alpha);
   const double single = lobeModelShare(p, alpha, albedo, mu_in, 1);
   const double colour = albedo * albedo * (1 + p.third_order * albedo);
-  return single * mu_out / kPi +
-         colour * lobeEnergy(lobe.scale, lobe.exponent, lobe.flattening, mu_out);
+  return single * mu_out / kPi + colour * lobeEnergy(lobe, mu_out);
 }
 
 double eonAlbedo(double mu, double r) {
@@ -98,8 +116,9 @@ EonValue eonBrdf(const glm::dvec3& in, const glm::dvec3& out, double r, double a
   return value;
 }
 
-double eonRoughness(double alpha) {
-  return std::clamp(alpha, 0.0, 1.0);
+double EonRoughness::at(double alpha) const {
+  const double square = alpha * alpha;
+  return square > 0 ? std::clamp(top * square / (square + knee), 0.0, 1.0) : 0;
 }
 
 }  // namespace glintmark

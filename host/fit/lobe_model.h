@@ -17,6 +17,7 @@ struct LobePolynomials {
   std::array<double, 2> exponent{};                   // eta: of alpha, alpha^2
   std::array<std::array<double, 4>, 4> flattening{};  // sigma_n: of mu^0 to mu^3
   double third_order = 0;                             // order 3 over order 2, times the albedo
+  double masking = 0;  // m, importance of masking and shadowing, [0, 1]; [PAT18] ends with 0
 };
 
 /// The coefficients of the code that [PAT18] gives, and those of its text, which belong to another
@@ -27,7 +28,15 @@ extern const LobePolynomials kPublishedCode, kPublishedText;
 /// A lobe's parameters for one incidence and roughness.
 struct Lobe {
   double scale = 0, exponent = 1, flattening = 1;
+  double masking = 0, alpha = 0, mu_in = 1;  // of the factor for masking and shadowing
 };
+
+/// G(mu, alpha) of one direction: Smith's masking for Beckmann slopes, rational fit of [Walter07]
+/// ("Microfacet Models for Refraction through Rough Surfaces", EGSR 2007). 1 for alpha 0.
+double smithMasking(double mu, double alpha);
+/// What masking and shadowing of importance m leave: (1 - m) + m G(mu_in) G(mu_out).
+/// [PAT18] "Analytical Lobe Expression"
+double maskingFactor(double m, double alpha, double mu_in, double mu_out);
 
 /// Evaluates the polynomials for the cosine of incidence `mu`, 0 to 1; scale is cut off at 0, where
 /// the published one is negative, and flattening kept in [0.05, 4].
@@ -44,6 +53,8 @@ T lobeEnergy(const T& scale, const T& exponent, const T& flattening, const T& mu
   return scale * (2.0 + exponent) * shape / (2.0 * std::numbers::pi * std::numbers::pi);
 }
 
+/// The same for a lobe, with its masking.
+double lobeEnergy(const Lobe& lobe, double mu_out);
 /// That energy over the hemisphere: the share of an order.
 double lobeShare(const Lobe& lobe);
 
@@ -62,8 +73,12 @@ struct EonValue {
 EonValue eonBrdf(const glm::dvec3& in, const glm::dvec3& out, double r, double albedo);
 /// Directional albedo of its single scattering at albedo 1, exact.
 double eonAlbedo(double mu, double r);
-/// The roughness r of EON that we take for Beckmann roughness alpha: the same number, at most 1.
-/// EON's facets are not Beckmann's, so there is no r that makes the two alike.
-double eonRoughness(double alpha);
+/// The roughness r of EON that stands for Beckmann roughness alpha: top alpha^2 / (alpha^2 + knee),
+/// the form of Oren and Nayar's own B of the slope variance, at most 1. The numbers are fitted.
+struct EonRoughness {
+  double top = 1, knee = 0;
+
+  double at(double alpha) const;
+};
 
 }  // namespace glintmark

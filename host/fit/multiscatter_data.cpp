@@ -8,11 +8,12 @@
 
 #include "host/core/error.h"
 #include "host/fit/data_folder.h"
+#include "host/fit/multiscatter_types.h"
 
 namespace glintmark {
 namespace {
 
-constexpr const char* kSchema = "glintmark.multiscatter/1";
+constexpr const char* kSchema = "glintmark.multiscatter/2";
 
 // Index of the cell of `x` in ascending `grid`, and how far in it.
 std::pair<std::size_t, double> locate(const std::vector<double>& grid, double x) {
@@ -24,25 +25,38 @@ std::pair<std::size_t, double> locate(const std::vector<double>& grid, double x)
 
 }  // namespace
 
-double MirrorAlbedo::at(double alpha, double mu) const {
-  const auto [i, s] = locate(alphas, alpha);
-  const auto [j, t] = locate(mus, mu);
-  const auto value = [&](std::size_t a, std::size_t m) { return energy[a * mus.size() + m]; };
-  return (1 - s) * ((1 - t) * value(i, j) + t * value(i, j + 1)) +
-         s * ((1 - t) * value(i + 1, j) + t * value(i + 1, j + 1));
+double MirrorAlbedo::at(const std::vector<double>& energy, double alpha, double t) const {
+  const auto [i, x] = locate(alphas, alpha);
+  const auto [j, y] = locate(warped, t);
+  const auto value = [&](std::size_t a, std::size_t m) { return energy[a * warped.size() + m]; };
+  return (1 - x) * ((1 - y) * value(i, j) + y * value(i, j + 1)) +
+         x * ((1 - y) * value(i + 1, j) + y * value(i + 1, j + 1));
+}
+
+double MirrorAlbedo::warp(double alpha, double mu) {
+  const double s = MS_WARP * alpha;
+  return mu * (1 + s) / (mu + s);
+}
+
+double MirrorAlbedo::cosine(double alpha, double t) {
+  const double s = MS_WARP * alpha;
+  return t * s / (1 + s - t);
 }
 
 std::string toJson(const MultiscatterData& data) {
-  const nlohmann::json json = {
-      {"schema", kSchema},
-      {"source", data.source},
-      {"refit",
-       {{"scale", data.refit.scale},
-        {"exponent", data.refit.exponent},
-        {"flattening", data.refit.flattening},
-        {"third_order", data.refit.third_order}}},
-      {"mirror",
-       {{"alpha", data.mirror.alphas}, {"mu", data.mirror.mus}, {"energy", data.mirror.energy}}}};
+  const nlohmann::json json = {{"schema", kSchema},
+                               {"source", data.source},
+                               {"refit",
+                                {{"scale", data.refit.scale},
+                                 {"exponent", data.refit.exponent},
+                                 {"flattening", data.refit.flattening},
+                                 {"third_order", data.refit.third_order}}},
+                               {"eon_roughness", {{"top", data.eon.top}, {"knee", data.eon.knee}}},
+                               {"mirror",
+                                {{"alpha", data.mirror.alphas},
+                                 {"warped_mu", data.mirror.warped},
+                                 {"simulated", data.mirror.simulated},
+                                 {"lobe", data.mirror.lobe}}}};
   return json.dump(1) + "\n";
 }
 
@@ -59,10 +73,14 @@ MultiscatterData readMultiscatterData(const std::filesystem::path& path) {
     refit.at("exponent").get_to(data.refit.exponent);
     refit.at("flattening").get_to(data.refit.flattening);
     refit.at("third_order").get_to(data.refit.third_order);
+    const nlohmann::json& eon = json.at("eon_roughness");
+    eon.at("top").get_to(data.eon.top);
+    eon.at("knee").get_to(data.eon.knee);
     const nlohmann::json& mirror = json.at("mirror");
     mirror.at("alpha").get_to(data.mirror.alphas);
-    mirror.at("mu").get_to(data.mirror.mus);
-    mirror.at("energy").get_to(data.mirror.energy);
+    mirror.at("warped_mu").get_to(data.mirror.warped);
+    mirror.at("simulated").get_to(data.mirror.simulated);
+    mirror.at("lobe").get_to(data.mirror.lobe);
   } catch (const nlohmann::json::exception& error) {
     throw Error(
         fmt::format("{} does not hold lobes and a mirror's albedo ({}); make it with "
@@ -70,10 +88,13 @@ MultiscatterData readMultiscatterData(const std::filesystem::path& path) {
                     path.string(), error.what()));
   }
   const MirrorAlbedo& m = data.mirror;
-  const bool good = m.alphas.size() >= 2 && m.mus.size() >= 2 &&
-                    m.energy.size() == m.alphas.size() * m.mus.size() &&
-                    std::ranges::is_sorted(m.alphas) && std::ranges::is_sorted(m.mus) &&
-                    std::ranges::all_of(m.energy, [](double e) { return e > 0 && e <= 1; });
+  const auto shares = [&m](const std::vector<double>& energy) {
+    return energy.size() == m.alphas.size() * m.warped.size() &&
+           std::ranges::all_of(energy, [](double e) { return e > 0 && e <= 1; });
+  };
+  const bool good = m.alphas.size() >= 2 && m.warped.size() >= 2 &&
+                    std::ranges::is_sorted(m.alphas) && std::ranges::is_sorted(m.warped) &&
+                    shares(m.simulated) && shares(m.lobe);
   if (!good)
     throw Error(
         fmt::format("the mirror's albedo in {} is not a table of shares in (0, 1]", path.string()));

@@ -8,17 +8,22 @@
 
 namespace glintmark {
 
-/// Energy that a rough mirror (Fresnel term 1) reflects by one bounce, simulated.
+/// Energy that a rough mirror (Fresnel term 1) reflects by one bounce: of simulated surfaces, and
+/// of the lobe that the kernels shade with, Beckmann's with height-correlated Smith masking.
 struct MirrorAlbedo {
-  std::vector<double> alphas, mus;  // ascending; mu: cosine of incidence
-  std::vector<double> energy;       // alphas x mus
+  // Ascending; warped, from 0 to 1: t = mu (1 + s) / (mu + s), s = MS_WARP alpha, of the cosine mu.
+  std::vector<double> alphas, warped;
+  std::vector<double> simulated, lobe;  // alphas x warped
 
-  /// Bilinear; alpha and mu are clamped to the table.
-  double at(double alpha, double mu) const;
+  /// Bilinear in alpha and warped cosine, which are clamped to the table.
+  double at(const std::vector<double>& energy, double alpha, double t) const;
+  static double warp(double alpha, double mu);
+  static double cosine(double alpha, double t);  // inverse of warp()
 };
 
 struct MultiscatterData {
-  LobePolynomials refit;
+  LobePolynomials refit;  // without masking
+  EonRoughness eon;
   MirrorAlbedo mirror;
   std::string source;  // how the figures were made, one sentence
 };

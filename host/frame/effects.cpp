@@ -76,7 +76,10 @@ KernelConfig configFor(const Material& material, const Scene& scene, const Shadi
   // The ground truth of normal maps and area lights keeps to the plain lobes.
   if (config.diffuse && !options.truth)
     config.multiscatter = static_cast<Multiscatter>(material.diffuse_model);
-  config.metal_compensation = material.compensation && !options.truth;
+  config.lobe_masking =
+      material.diffuse_masking > 0 && (config.multiscatter == Multiscatter::kPublished ||
+                                       config.multiscatter == Multiscatter::kRefit);
+  config.metal_compensation = material.compensation != Compensation::kOff && !options.truth;
   setNormalMap(material, options, config);
   setAreaLights(material, scene, options, config);
   config.planes = planesFor(config);

@@ -42,21 +42,23 @@ float4 atRoughness(const std::array<std::array<double, 4>, 4>& c, double alpha) 
   return {value(0), value(1), value(2), value(3)};
 }
 
-void prepareLobes(const GlintMaterial& material, const LobePolynomials& p, double alpha,
-                  MultiscatterMaterial& out) {
+void prepareLobes(const Material& material, LobePolynomials p, MultiscatterMaterial& out) {
+  const double alpha = material.diffuse_roughness;
+  p.masking = material.diffuse_masking;
   const double eta = lobeAt(p, 1, alpha).exponent;
+  out.alpha = static_cast<float>(alpha);
+  out.masking = static_cast<float>(p.masking);
   out.scale = atRoughness(p.scale, alpha);
   out.flattening = atRoughness(p.flattening, alpha);
   out.exponent = static_cast<float>(eta - 1);
-  out.single = mapColour(material.albedo, [](double rho) { return rho / kPi; });
-  out.multiple = mapColour(material.albedo, [&](double rho) {
+  out.single = mapColour(material.glint.albedo, [](double rho) { return rho / kPi; });
+  out.multiple = mapColour(material.glint.albedo, [&](double rho) {
     return rho * rho * (1 + p.third_order * rho) * (2 + eta) / (2 * kPi * kPi);
   });
   interpolate([&](double mu) { return lobeModelShare(p, alpha, 1, mu, 1); }, out.share);
 }
 
-void prepareEon(const GlintMaterial& material, double alpha, MultiscatterMaterial& out) {
-  const double r = eonRoughness(alpha);
+void prepareEon(const GlintMaterial& material, double r, MultiscatterMaterial& out) {
   const double a_f = 1 / (1 + (0.5 - 2 / (3 * kPi)) * r);
   const double mean = a_f * (1 + (2.0 / 3.0 - 28 / (15 * kPi)) * r);
   out.exponent = static_cast<float>(r);
@@ -67,29 +69,32 @@ void prepareEon(const GlintMaterial& material, double alpha, MultiscatterMateria
   interpolate([&](double mu) { return 1 - eonAlbedo(mu, r); }, out.share);
 }
 
-}  // namespace
-
-MultiscatterMaterial prepareMultiscatter(const GlintMaterial& material, Multiscatter model,
-                                         double diffuse_roughness, const LobePolynomials& refit,
-                                         const MirrorAlbedo* mirror) {
-  MultiscatterMaterial out{};
-  if (model == Multiscatter::kPublished)
-    prepareLobes(material, kPublishedCode, diffuse_roughness, out);
-  if (model == Multiscatter::kRefit) prepareLobes(material, refit, diffuse_roughness, out);
-  if (model == Multiscatter::kEon) prepareEon(material, diffuse_roughness, out);
-  if (mirror) {
-    const double alpha = std::sqrt(static_cast<double>(material.alpha_g.x) * material.alpha_g.y);
-    interpolate([&](double mu) { return 1 / mirror->at(alpha, mu) - 1; }, out.compensation);
-  }
-  return out;
+// Metals: what one bounce leaves out, over what it reflects. [Turquin19] Eq. 16
+void prepareCompensation(const Material& material, const MirrorAlbedo& mirror,
+                         MultiscatterMaterial& out) {
+  const double alpha =
+      std::sqrt(static_cast<double>(material.glint.alpha_g.x) * material.glint.alpha_g.y);
+  const std::vector<double>& energy =
+      material.compensation == Compensation::kSimulated ? mirror.simulated : mirror.lobe;
+  out.warp = static_cast<float>(MS_WARP * alpha);
+  interpolate([&](double t) { return 1 / mirror.at(energy, alpha, t) - 1; }, out.compensation);
 }
 
-MultiscatterMaterial prepareMultiscatter(const Material& material, const KernelConfig& config) {
-  // Tables are read only by materials that need them.
-  const bool refit = config.multiscatter == Multiscatter::kRefit;
-  return prepareMultiscatter(material.glint, config.multiscatter, material.diffuse_roughness,
-                             refit ? multiscatterData().refit : LobePolynomials{},
-                             config.metal_compensation ? &multiscatterData().mirror : nullptr);
+}  // namespace
+
+MultiscatterMaterial prepareMultiscatter(const Material& material, const KernelConfig& config,
+                                         const MultiscatterData* data) {
+  const auto fits = [data]() -> const MultiscatterData& {
+    return data ? *data : multiscatterData();
+  };
+  const double alpha = material.diffuse_roughness;
+  MultiscatterMaterial out{};
+  if (config.multiscatter == Multiscatter::kPublished) prepareLobes(material, kPublishedCode, out);
+  if (config.multiscatter == Multiscatter::kRefit) prepareLobes(material, fits().refit, out);
+  if (config.multiscatter == Multiscatter::kEon)
+    prepareEon(material.glint, fits().eon.at(alpha), out);
+  if (config.metal_compensation) prepareCompensation(material, fits().mirror, out);
+  return out;
 }
 
 }  // namespace glintmark

@@ -55,11 +55,11 @@ std::string buildOptions(const KernelConfig& config) {
       " -D NORMAL_MAP={:d} -D NORMAL_METHOD={} -D LOBES={} -D ANISOTROPY={} -D HALF_TEXELS={:d} "
       "-D LTC={:d} -D LTC_METHOD={} -D LIGHT_VERTICES={} -D CLIPLESS={:d} -D LIGHT_TEXTURE={:d} -D "
       "MULTISCATTER={} "
-      "-D METAL_COMPENSATION={:d}",
+      "-D LOBE_MASKING={:d} -D METAL_COMPENSATION={:d}",
       config.normal_map, static_cast<int>(config.normal_method), config.lobes, config.anisotropy,
       config.half_texels, config.ltc, static_cast<int>(config.ltc_method), config.light_vertices,
       config.clipless, config.light_texture, static_cast<int>(config.multiscatter),
-      config.metal_compensation);
+      config.lobe_masking, config.metal_compensation);
   for (std::size_t i = 0; i < kPlaneCount; ++i) {
     const Plane plane = static_cast<Plane>(i);
     if (config.planes.has(plane))

@@ -47,6 +47,7 @@ struct KernelConfig {
   bool clipless = false;       // area lights are not clipped to the horizon
   bool light_texture = false;  // some area light is textured
   Multiscatter multiscatter = Multiscatter::kOff;
+  bool lobe_masking = false;        // masking and shadowing of multiple scattering
   bool metal_compensation = false;  // specular albedo scaling for light scattered more than once
   PlaneMask planes;                 // planes in the buffer; each becomes PLANE_<NAME> = its slot
 

@@ -56,4 +56,28 @@ double microfacetTimesCosine(Ndf ndf, const glm::dvec3& i, const glm::dvec3& o, 
   return 0.25 * microfacetDensity(ndf, m, alpha) * masking;
 }
 
+double microfacetAlbedo(Ndf ndf, double mu, double alpha) {
+  // Normals m with quantile u of their slope and azimuth phi: d m = 1 / (D m.z) d(u, phi / 2 pi),
+  // and d i = 4 o.m d m. GGX: slope^2 = alpha^2 u / (1 - u); Beckmann: -alpha^2 log(1 - u).
+  constexpr int kSlopes = 192, kAzimuths = 96;  // azimuths over half a turn
+  const glm::dvec3 o(std::sqrt(std::max(1 - mu * mu, 0.0)), 0, mu);
+  double sum = 0;
+  for (int k = 0; k < kSlopes; ++k) {
+    const double u = (k + 0.5) / kSlopes;
+    const double slope_sq = ndf == Ndf::kGgx ? u / (1 - u) : -std::log1p(-u);
+    const double slope = alpha * std::sqrt(slope_sq);
+    for (int j = 0; j < kAzimuths; ++j) {
+      const double phi = (j + 0.5) * std::numbers::pi / kAzimuths;
+      const glm::dvec3 m =
+          glm::normalize(glm::dvec3(slope * std::cos(phi), slope * std::sin(phi), 1));
+      const double cosine = glm::dot(o, m);
+      if (cosine <= 0) continue;
+      const glm::dvec3 i = 2 * cosine * m - o;
+      sum += microfacetTimesCosine(ndf, i, o, alpha) * 4 * cosine /
+             (microfacetDensity(ndf, m, alpha) * m.z);
+    }
+  }
+  return sum / (kSlopes * kAzimuths);
+}
+
 }  // namespace glintmark::reference

@@ -30,4 +30,23 @@ Image pictureStrip(const std::vector<std::pair<std::string, Image>>& pictures) {
   return strip;
 }
 
+Image pictureColumn(const std::vector<Image>& pictures) {
+  if (pictures.empty()) throw Error("a column of pictures needs at least one");
+  int width = 0, height = 0;
+  for (const Image& picture : pictures) {
+    width = std::max(width, picture.width);
+    height += picture.height;
+  }
+  Image column(width, height, 3);
+  std::ranges::fill(column.pixels, 1.0f);
+  int top = 0;
+  for (const Image& picture : pictures) {
+    for (int y = 0; y < picture.height; ++y)
+      for (int x = 0; x < picture.width; ++x)
+        std::ranges::copy(picture.at(x, y).first(3), column.at(x, top + y).begin());
+    top += picture.height;
+  }
+  return column;
+}
+
 }  // namespace glintmark

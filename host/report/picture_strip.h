@@ -11,4 +11,7 @@ namespace glintmark {
 /// One row of RGB display pictures of the same size, at least one.
 Image pictureStrip(const std::vector<std::pair<std::string, Image>>& pictures);
 
+/// RGB display pictures of any size below each other, on white.
+Image pictureColumn(const std::vector<Image>& pictures);
+
 }  // namespace glintmark

@@ -37,6 +37,15 @@ void readNdf(SceneTable& table, Material& material) {
   material.ggx = ndf == "ggx";
 }
 
+void readCompensation(SceneTable& table, Material& material) {
+  constexpr const char* kNames[] = {"off", "lobe", "simulated"};
+  const std::string name = table.text("compensation", "off");
+  const auto found = std::ranges::find(kNames, name);
+  if (found == std::end(kNames))
+    table.fail("compensation", fmt::format("is '{}', expected off, lobe or simulated", name));
+  material.compensation = static_cast<Compensation>(found - std::begin(kNames));
+}
+
 void readScattering(SceneTable& table, Material& material) {
   constexpr const char* kNames[] = {"lambert", "published", "refit", "eon"};
   const std::string name = table.text("diffuse_model", "lambert");
@@ -46,7 +55,12 @@ void readScattering(SceneTable& table, Material& material) {
                fmt::format("is '{}', expected lambert, published, refit or eon", name));
   material.diffuse_model = static_cast<DiffuseModel>(found - std::begin(kNames));
   material.diffuse_roughness = table.number("diffuse_roughness", 0.5, kReflectance);
-  material.compensation = table.flag("compensation", false);
+  material.diffuse_masking = table.number("diffuse_masking", 0, kReflectance);
+  const bool has_lobes = material.diffuse_model == DiffuseModel::kPublished ||
+                         material.diffuse_model == DiffuseModel::kRefit;
+  if (material.diffuse_masking > 0 && !has_lobes)
+    table.fail("diffuse_masking", "needs diffuse_model published or refit: others have no lobes");
+  readCompensation(table, material);
 }
 
 void readPalette(SceneTable& table, Material& material) {

@@ -64,6 +64,10 @@ struct NormalMapSource {
 /// with its own coefficients or ours, or energy-preserving Oren-Nayar.
 enum class DiffuseModel : int { kLambert, kPublished, kRefit, kEon };
 
+/// What a specular lobe gets back of the light that it loses to further bounces: nothing, what it
+/// lacks itself, so that a white furnace stays white, or what the simulated surfaces lack.
+enum class Compensation : int { kOff, kLobe, kSimulated };
+
 /// [ZK16] Sect. 4.5, ready for the device, with what selects the effects.
 struct Material {
   std::string name;
@@ -74,7 +78,8 @@ struct Material {
   bool ggx = false;          // NDF under area lights: GGX, not Beckmann
   DiffuseModel diffuse_model = DiffuseModel::kLambert;
   double diffuse_roughness = 0.5;  // Beckmann roughness of the diffuse microfacets, [0, 1]
-  bool compensation = false;       // the specular lobe gets back what it loses to further bounces
+  double diffuse_masking = 0;      // importance m of masking and shadowing of the lobes, [0, 1]
+  Compensation compensation = Compensation::kOff;
   std::optional<NormalMapSource> normal_map{};  // of smooth materials only
 };
 

@@ -65,7 +65,7 @@ TEST(MultiscatterShading, NothingIsNegativeOrNotANumberAtTheHorizon) {
     SceneRequest request;
     request.scene = "rough_plane";
     request.overrides = {fmt::format("material.clay.diffuse_model={}", name),
-                         "material.clay.diffuse_roughness=0.08", "material.clay.compensation=true",
+                         "material.clay.diffuse_roughness=0.08", "material.clay.compensation=lobe",
                          "light.sun.elevation_deg=0", "view.oblique.orbit.angle_deg=0.1"};
     const Scene scene = loadScene(request);
     FrameRenderer renderer(device, scene, scene.views.front(), {.width_px = 64, .height_px = 36});

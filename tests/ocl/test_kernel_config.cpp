@@ -15,7 +15,7 @@ TEST(KernelConfig, DefaultsWriteEverySwitch) {
             "-D NORMAL_MAP=0 -D NORMAL_METHOD=0 -D LOBES=1 -D ANISOTROPY=1 -D HALF_TEXELS=0 "
             "-D LTC=0 -D LTC_METHOD=0 -D LIGHT_VERTICES=4 -D CLIPLESS=0 -D LIGHT_TEXTURE=0 -D "
             "MULTISCATTER=0 "
-            "-D METAL_COMPENSATION=0");
+            "-D LOBE_MASKING=0 -D METAL_COMPENSATION=0");
 }
 
 TEST(KernelConfig, EverySwitchShows) {
@@ -28,7 +28,7 @@ TEST(KernelConfig, EverySwitchShows) {
   config.method = GlintMethod::kExact;
   config.ka = 64;
   config.ggx = config.normal_map = config.half_texels = config.ltc = config.clipless = true;
-  config.light_texture = config.metal_compensation = true;
+  config.light_texture = config.lobe_masking = config.metal_compensation = true;
   config.normal_method = NormalMethod::kGmm;
   config.lobes = 8;
   config.anisotropy = 16;
@@ -42,7 +42,7 @@ TEST(KernelConfig, EverySwitchShows) {
             "-D NORMAL_MAP=1 -D NORMAL_METHOD=5 -D LOBES=8 -D ANISOTROPY=16 -D HALF_TEXELS=1 "
             "-D LTC=1 -D LTC_METHOD=2 -D LIGHT_VERTICES=8 -D CLIPLESS=1 -D LIGHT_TEXTURE=1 -D "
             "MULTISCATTER=3 "
-            "-D METAL_COMPENSATION=1");
+            "-D LOBE_MASKING=1 -D METAL_COMPENSATION=1");
 }
 
 TEST(KernelConfig, PlanesBecomeTheirSlots) {

@@ -1,0 +1,98 @@
+#include "host/frame/white_furnace.h"
+
+#include <cmath>
+#include <glm/glm.hpp>
+#include <numbers>
+
+#include "host/frame/frame_renderer.h"
+#include "host/reference/microfacet.h"
+
+namespace glintmark {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr int kSlopes = 64, kAzimuths = 16;  // azimuths over a whole turn
+constexpr int kLights = kSlopes * kAzimuths;
+constexpr int kSide_px = 2;
+
+struct PartOfSky {
+  glm::dvec3 direction;  // tangent frame, z the normal
+  double solid_angle;
+};
+
+// Directions of equal solid angles on a spiral that turns by the golden angle.
+std::vector<PartOfSky> evenSky() {
+  std::vector<PartOfSky> parts;
+  for (int k = 0; k < kLights; ++k) {
+    const double z = (k + 0.5) / kLights, sine = std::sqrt(1 - z * z);
+    const double phi = kPi * (3 - std::sqrt(5.0)) * k;
+    parts.push_back({{sine * std::cos(phi), sine * std::sin(phi), z}, 2 * kPi / kLights});
+  }
+  return parts;
+}
+
+// Mirror images of the view at normals over the quantiles of a Beckmann distribution; the rule of
+// reference::microfacetAlbedo().
+std::vector<PartOfSky> mirroredSky(const glm::dvec3& view, double alpha) {
+  std::vector<PartOfSky> parts;
+  for (int k = 0; k < kSlopes; ++k) {
+    const double slope = alpha * std::sqrt(-std::log1p(-(k + 0.5) / kSlopes));
+    for (int j = 0; j < kAzimuths; ++j) {
+      const double phi = (j + 0.5) * 2 * kPi / kAzimuths;
+      const glm::dvec3 m =
+          glm::normalize(glm::dvec3(slope * std::cos(phi), slope * std::sin(phi), 1));
+      const double cosine = glm::dot(view, m);
+      const glm::dvec3 direction = 2 * cosine * m - view;
+      if (cosine <= 0 || direction.z <= 0) continue;
+      const double density = reference::microfacetDensity(reference::Ndf::kBeckmann, m, alpha);
+      parts.push_back({direction, 4 * cosine / (density * m.z * kLights)});
+    }
+  }
+  return parts;
+}
+
+// A square in the plane y = 0; its normal is y.
+TriangleMesh squareMesh() {
+  TriangleMesh mesh;
+  for (const glm::vec2& corner :
+       {glm::vec2(-1, -1), glm::vec2(-1, 1), glm::vec2(1, 1), glm::vec2(1, -1)}) {
+    mesh.positions.emplace_back(100 * corner.x, 0, 100 * corner.y);
+    mesh.normals.emplace_back(0, 1, 0);
+    mesh.tangents.emplace_back(1, 0, 0, 1);
+    mesh.uvs.emplace_back(corner.x, -corner.y);
+  }
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  mesh.triangle_materials = {0, 0};
+  return mesh;
+}
+
+}  // namespace
+
+double whiteFurnace(Device& device, const Material& material, double view_cosine) {
+  Scene scene;
+  scene.name = "white_furnace";
+  scene.mesh = squareMesh();
+  scene.materials = {material};
+  View view;
+  view.fov_y_deg = 0.01;
+  view.near_plane = 1e-3;
+  // Azimuth 0 puts the eye towards +z.
+  view = orbitView(view, {.angle_deg = std::asin(view_cosine) * 180 / kPi});
+  scene.views = {view};
+  const glm::dvec3 towards = glm::normalize(view.eye - view.target);
+  const glm::dvec3 local(towards.z, towards.x, towards.y);  // x' = z, y' = x, z' = y
+  for (const PartOfSky& part :
+       material.glint.intensity > 0 ? mirroredSky(local, material.glint.alpha_g.x) : evenSky()) {
+    const auto power = static_cast<float>(part.solid_angle);
+    scene.lights.push_back(
+        {{static_cast<float>(part.direction.y), static_cast<float>(part.direction.z),
+          static_cast<float>(part.direction.x), 0},
+         {power, power, power, 0}});
+  }
+  FrameRenderer renderer(device, scene, view, {.width_px = kSide_px, .height_px = kSide_px});
+  renderer.prepare();
+  renderer.shade();
+  return renderer.readRadiance().at(kSide_px / 2, kSide_px / 2)[0];
+}
+
+}  // namespace glintmark
