@@ -22,8 +22,8 @@ constexpr int kAlphas = 11;
 constexpr double kFirstAlpha = 0.05, kLastAlpha = 1;
 constexpr double kIncidences_deg[] = {0, 10, 20, 30, 40, 50, 60, 70, 80, 85};
 constexpr double kLeastRays = 1000, kMostRays = 1e12;
-constexpr int kMirrorAlphas = 16;
-constexpr int kMirrorNodes = 33;  // of the warped cosine, from 0 to 1
+constexpr int kMirrorAlphas = 18;  // 1/64, 1/32, then multiples of 1/16
+constexpr int kMirrorNodes = 33;   // of the warped cosine, from 0 to 1
 
 struct FitLobesOptions {
   std::string folder = "results/latest", data, picture;
@@ -104,13 +104,14 @@ void LobeFitRun::makeMirror() {
   for (int j = 0; j < kMirrorNodes; ++j)
     table.warped.push_back(static_cast<double>(j) / (kMirrorNodes - 1));
   for (int i = 0; i < kMirrorAlphas; ++i) {
-    const double alpha = (i + 1.0) / kMirrorAlphas;
+    const double alpha = i < 2 ? (i + 1) / 64.0 : (i - 1) / 16.0;
     table.alphas.push_back(alpha);
     for (const double t : table.warped) {
       const double mu = MirrorAlbedo::cosine(alpha, t);
       // At the horizon a surface shows its peaks only, and nothing is lost.
       table.simulated.push_back(mu > 0 ? mirrorEnergy(alpha, mu) : 1);
-      const double lobe = reference::microfacetAlbedo(reference::Ndf::kBeckmann, mu, alpha);
+      const double lobe = reference::microfacetAlbedo(reference::Ndf::kBeckmann, mu, alpha,
+                                                      reference::SmithForm::kRational);
       table.lobe.push_back(mu > 0 ? std::min(lobe, 1.0) : 1);
     }
   }

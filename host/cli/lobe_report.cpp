@@ -33,7 +33,7 @@ std::vector<NamedSet> setsOf(const LobeFits& fits) {
 std::function<double(double, double)> polynomialModel(const LobePolynomials& set,
                                                       const LobeData& data) {
   const Lobe lobe = lobeAt(set, data.mu_in, data.alpha);
-  const double order = data.order == 3 ? set.third_order : 1;
+  const double order = data.order == 3 ? set.thirdOverSecond(data.alpha) : 1;
   return [lobe, order](double cosine, double) { return order * lobeEnergy(lobe, cosine); };
 }
 
@@ -146,7 +146,8 @@ std::string lobeErrorTable(const LobeFits& fits, int order) {
   TextTable table({fmt::format("order {}: alpha", order), "free lobe", "no masking", "PAT18 text",
                    "PAT18 code", "refit", "simulated share", "code's", "refit's"});
   const auto share = [order](const LobePolynomials& set, const LobeData& data) {
-    return lobeShare(lobeAt(set, data.mu_in, data.alpha)) * (order == 3 ? set.third_order : 1);
+    return lobeShare(lobeAt(set, data.mu_in, data.alpha)) *
+           (order == 3 ? set.thirdOverSecond(data.alpha) : 1);
   };
   for (std::size_t a = 0; a < fits.alphas.size(); ++a) {
     double sums[8] = {};
@@ -186,7 +187,7 @@ std::string coefficientTable(const LobeFits& fits) {
   for (const NamedSet& named : setsOf(fits))
     row("exponent", named.name, 0.0, named.set->exponent[0], named.set->exponent[1]);
   for (const NamedSet& named : setsOf(fits))
-    row("order 3 over 2", named.name, named.set->third_order);
+    row("order 3 over 2; knee", named.name, named.set->third_order, named.set->third_order_knee);
   return table.toString();
 }
 
@@ -205,8 +206,8 @@ std::string eonTable(const LobeFits& fits) {
         };
       };
       const auto whole = [&](const LobePolynomials& set) {
-        return [&set, alpha, mu](double cosine, double) {
-          return lobeModelEnergy(set, alpha, 1, mu, cosine);
+        return [model = LobeModel(set, alpha), mu](double cosine, double) {
+          return model.energy(1, mu, cosine);
         };
       };
       sums[0] += lobeError(data, eon(r));
@@ -226,18 +227,18 @@ std::string eonTable(const LobeFits& fits) {
 std::string mirrorTable(const LobeFits& fits) {
   const MirrorAlbedo& mirror = fits.data.mirror;
   constexpr double kMus[] = {0.1, 0.2, 0.4, 0.7, 1};
-  std::vector<std::string> header = {"mirror: alpha"};
-  for (const double mu : kMus) header.push_back(fmt::format("simulated, mu {}", mu));
-  for (const double mu : kMus) header.push_back(fmt::format("lobe {}", mu));
+  std::vector<std::string> header = {"mirror: alpha", "of"};
+  for (const double mu : kMus) header.push_back(fmt::format("mu {}", mu));
   TextTable table(header);
-  for (const double alpha : {0.125, 0.25, 0.5, 0.75, 1.0}) {
-    std::vector<std::string> row = {fmt::format("{:.3f}", alpha)};
-    for (const std::vector<double>* energy : {&mirror.simulated, &mirror.lobe})
+  for (const double alpha : {0.125, 0.25, 0.5, 0.75, 1.0})
+    for (const bool simulated : {true, false}) {
+      std::vector<std::string> row = {fmt::format("{:.3f}", alpha),
+                                      simulated ? "simulated surface" : "kernels' lobe"};
       for (const double mu : kMus)
-        row.push_back(
-            fmt::format("{:.3f}", mirror.at(*energy, alpha, MirrorAlbedo::warp(alpha, mu))));
-    table.addRow(row);
-  }
+        row.push_back(fixed(mirror.at(simulated ? mirror.simulated : mirror.lobe, alpha,
+                                      MirrorAlbedo::warp(alpha, mu))));
+      table.addRow(row);
+    }
   return table.toString();
 }
 
@@ -252,7 +253,7 @@ Image residualPicture(const LobeFits& fits) {
   const ChartOptions options{.columns = 3,
                              .panel_width_px = 340,
                              .panel_height_px = 230,
-                             .x_label = "angle from the normal [deg], light on the right",
+                             .x_label = "angle from the normal in degrees, light on the right",
                              .y_label = "order 2, energy per solid angle"};
   return pictureColumn({errorMatrices(fits), lineChart(panels, options)});
 }

@@ -179,7 +179,8 @@ std::vector<Record> measureMetal(BenchRun& run, const std::string& name) {
     for (const double mu : kFurnaceCosines) {
       stopIfInterrupted();
       samples.push_back(whiteFurnace(run.device(), mirror, mu));
-      const double lobe = reference::microfacetAlbedo(reference::Ndf::kBeckmann, mu, alpha);
+      const double lobe = reference::microfacetAlbedo(reference::Ndf::kBeckmann, mu, alpha,
+                                                      reference::SmithForm::kRational);
       if (way == Compensation::kOff)
         valid = valid && std::abs(samples.back() - lobe) < kFurnaceTolerance;
       valid = valid && samples.back() <= kMostFurnace;

@@ -122,8 +122,8 @@ std::vector<Record> measureModel(BenchRun& run, const std::string& name) {
     const LobeData data = makeLobeData(simulation, 0);
     const double mu = data.mu_in;
     const auto lobes = [alpha, mu](const LobePolynomials& set) {
-      return [&set, alpha, mu](double cosine, double) {
-        return lobeModelEnergy(set, alpha, 1, mu, cosine);
+      return [model = LobeModel(set, alpha), mu](double cosine, double) {
+        return model.energy(1, mu, cosine);
       };
     };
     const auto eon = [mu](double r) {
@@ -221,7 +221,7 @@ Image energyChart(std::span<const Record> records) {
                    {.columns = 4,
                     .panel_width_px = 280,
                     .panel_height_px = 190,
-                    .x_label = "Beckmann roughness, or incidence [deg]",
+                    .x_label = "Beckmann roughness, or incidence in degrees",
                     .y_label = "share of the energy at albedo 1 (EON, order 2: all above 1)"});
 }
 

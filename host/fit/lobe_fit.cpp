@@ -46,8 +46,10 @@ struct FreeCost {
 };
 
 // The coefficients in the order of LobePolynomials. Those that [PAT18] has no power for stay 0.
-constexpr int kScale = 0, kExponent = 16, kFlattening = 18, kThird = 34, kMasking = 35,
-              kCoefficients = 36;
+constexpr int kScale = 0, kExponent = 16, kFlattening = 18, kThird = 34, kKnee = 35, kMasking = 36;
+constexpr int kCoefficients = 37;
+
+constexpr double kFirstKnee = 0.5;  // of order 3 over order 2, about where simulations bend
 
 double surfaceAt(const double* c, double mu, double alpha) {
   double sum = 0;
@@ -68,7 +70,8 @@ struct PolynomialCost {
     const double exponent = data.alpha * (c[kExponent] + data.alpha * c[kExponent + 1]);
     const double flattening = surfaceAt(c + kFlattening, data.mu_in, data.alpha);
     if (exponent < 0 || flattening < 0.05) return false;
-    const double order = data.order == 3 ? c[kThird] : 1.0;
+    const double square = data.alpha * data.alpha;
+    const double order = data.order == 3 ? c[kThird] * square / (square + c[kKnee]) : 1.0;
     for (int row = 0; row < LobeData::kCosines; ++row) {
       double mean = 0;
       for (int column = 0; column < LobeData::kAzimuths; ++column)
@@ -181,6 +184,7 @@ LobePolynomials fitPolynomials(const std::vector<LobeData>& data, bool masking) 
   c[kExponent] = start.exponent[0];
   c[kExponent + 1] = start.exponent[1];
   c[kThird] = start.third_order;
+  c[kKnee] = masking ? start.third_order_knee : kFirstKnee;
   c[kMasking] = masking ? 0.1 : 0;
   if (!masking) fixed.push_back(kMasking);
   ceres::Problem problem;
@@ -190,6 +194,7 @@ LobePolynomials fitPolynomials(const std::vector<LobeData>& data, bool masking) 
           new ceres::NumericDiffCostFunction<PolynomialCost, ceres::CENTRAL, LobeData::kCosines + 1,
                                              kCoefficients>(new PolynomialCost{one}),
           nullptr, c);
+  problem.SetParameterLowerBound(c, kKnee, 1e-9);
   problem.SetParameterLowerBound(c, kMasking, 0);
   problem.SetParameterUpperBound(c, kMasking, 1);
   problem.SetManifold(c, new ceres::SubsetManifold(kCoefficients, fixed));
@@ -203,6 +208,7 @@ LobePolynomials fitPolynomials(const std::vector<LobeData>& data, bool masking) 
     }
   result.exponent = {c[kExponent], c[kExponent + 1]};
   result.third_order = c[kThird];
+  result.third_order_knee = c[kKnee];
   result.masking = c[kMasking];
   return result;
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "host/reference/microfacet.h"
+
 namespace glintmark {
 namespace {
 
@@ -34,6 +36,11 @@ const LobePolynomials kPublishedText = {.scale = kPublishedCode.scale,
                                                         {0.1325770, 0.169750, 0, 0}}},
                                         .third_order = 0.363902052363025};
 
+double LobePolynomials::thirdOverSecond(double alpha) const {
+  const double square = alpha * alpha;
+  return third_order_knee > 0 ? third_order * square / (square + third_order_knee) : third_order;
+}
+
 Lobe lobeAt(const LobePolynomials& p, double mu, double alpha) {
   const auto surface = [&](const std::array<std::array<double, 4>, 4>& c) {
     return cubic({cubic(c[0], alpha), cubic(c[1], alpha), cubic(c[2], alpha), cubic(c[3], alpha)},
@@ -50,10 +57,10 @@ Lobe lobeAt(const LobePolynomials& p, double mu, double alpha) {
 }
 
 double smithMasking(double mu, double alpha) {
-  // With z / (alpha sin) multiplied out, so that alpha 0 and mu 1 need no care.
-  const double slope = alpha * std::sqrt(std::max(1 - mu * mu, 0.0));
-  if (mu >= 1.6 * slope) return 1;
-  return mu * (3.535 * slope + 2.181 * mu) / (slope * slope + mu * (2.276 * slope + 2.577 * mu));
+  const glm::dvec3 w(std::sqrt(std::max(1 - mu * mu, 0.0)), 0, mu);
+  const double lambda = reference::lambdaTimesCosine(reference::Ndf::kBeckmann, w, alpha,
+                                                     reference::SmithForm::kRational);
+  return lambda > 0 ? mu / (mu + lambda) : 1;
 }
 
 double maskingFactor(double m, double alpha, double mu_in, double mu_out) {
@@ -79,17 +86,57 @@ double lobeShare(const Lobe& lobe) {
 double lobeModelShare(const LobePolynomials& p, double alpha, double albedo, double mu_in,
                       int order) {
   const double second = lobeShare(lobeAt(p, mu_in, alpha));
-  if (order == 1) return albedo * std::max(1 - second * (1 + p.third_order), 0.0);
+  if (order == 1) return albedo * std::max(1 - second * (1 + p.thirdOverSecond(alpha)), 0.0);
   if (order == 2) return albedo * albedo * second;
-  return order == 3 ? albedo * albedo * albedo * p.third_order * second : 0;
+  return order == 3 ? albedo * albedo * albedo * p.thirdOverSecond(alpha) * second : 0;
 }
 
-double lobeModelEnergy(const LobePolynomials& p, double alpha, double albedo, double mu_in,
-                       double mu_out) {
-  const Lobe lobe = lobeAt(p, mu_in, alpha);
-  const double single = lobeModelShare(p, alpha, albedo, mu_in, 1);
-  const double colour = albedo * albedo * (1 + p.third_order * albedo);
-  return single * mu_out / kPi + colour * lobeEnergy(lobe, mu_out);
+namespace {
+
+// Midpoint rule over cosines of incidence, weighted by the cosine.
+constexpr int kIncidences = 48;
+
+double midpoint(int i) {
+  return (i + 0.5) / kIncidences;
+}
+
+}  // namespace
+
+LobeModel::LobeModel(const LobePolynomials& polynomials, double alpha)
+    : polynomials_(polynomials), alpha_(alpha), third_(polynomials.thirdOverSecond(alpha)) {
+  for (int i = 0; i < kIncidences; ++i) {
+    const double mu = midpoint(i);
+    lobes_.push_back(lobeAt(polynomials, mu, alpha));
+    scattered_ += 2 * mu * (1 - lobeModelShare(polynomials, alpha, 1, mu, 1)) / kIncidences;
+  }
+}
+
+LobeModel::Means LobeModel::means(double mu_out) const {
+  Means means;
+  const double weight = (1 + third_) * 2 * kPi / kIncidences;
+  for (int i = 0; i < kIncidences; ++i) {
+    const Lobe& lobe = lobes_[static_cast<std::size_t>(i)];
+    const double energy = weight * midpoint(i) *
+                          lobeEnergy(lobe.scale, 0.0, lobe.flattening, mu_out) *
+                          (2 + lobe.exponent) / 2;
+    means.plain += energy;
+    means.masked += energy * smithMasking(midpoint(i), alpha_);
+  }
+  return means;
+}
+
+double LobeModel::energy(double albedo, double mu_in, double mu_out) const {
+  const Lobe lobe = lobeAt(polynomials_, mu_in, alpha_);
+  const double single = lobeModelShare(polynomials_, alpha_, albedo, mu_in, 1);
+  const double colour = albedo * albedo * (1 + third_ * albedo);
+  if (mu_out <= 0) return colour * lobeEnergy(lobe, 0);
+  // What a white furnace would show of the higher orders: mean radiance times mu^(eta - 1).
+  const Means mean = means(mu_out);
+  const double m = polynomials_.masking;
+  const double furnace = std::pow(mu_out, lobe.exponent - 1) *
+                         ((1 - m) * mean.plain + m * smithMasking(mu_out, alpha_) * mean.masked);
+  const double room = furnace > scattered_ ? scattered_ / furnace : 1;
+  return single * mu_out / kPi + colour * room * lobeEnergy(lobe, mu_out);
 }
 
 double eonAlbedo(double mu, double r) {

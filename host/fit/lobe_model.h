@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/glm.hpp>
 #include <numbers>
+#include <vector>
 
 namespace glintmark {
 
@@ -16,8 +17,12 @@ struct LobePolynomials {
   std::array<std::array<double, 4>, 4> scale{};       // sigma: of mu^0 to mu^3
   std::array<double, 2> exponent{};                   // eta: of alpha, alpha^2
   std::array<std::array<double, 4>, 4> flattening{};  // sigma_n: of mu^0 to mu^3
-  double third_order = 0;                             // order 3 over order 2, times the albedo
+  double third_order =
+      0;  // order 3 over order 2 at albedo 1: third_order alpha^2 / (alpha^2 + knee)
+  double third_order_knee = 0;  // [PAT18] has the same ratio for all roughness
   double masking = 0;  // m, importance of masking and shadowing, [0, 1]; [PAT18] ends with 0
+
+  double thirdOverSecond(double alpha) const;
 };
 
 /// The coefficients of the code that [PAT18] gives, and those of its text, which belong to another
@@ -58,13 +63,34 @@ double lobeEnergy(const Lobe& lobe, double mu_out);
 /// That energy over the hemisphere: the share of an order.
 double lobeShare(const Lobe& lobe);
 
-/// Energy per solid angle of a whole model: single scattering is a Lambertian lobe with what higher
-/// orders leave, so that all of it never adds up to more than came in.
-double lobeModelEnergy(const LobePolynomials& polynomials, double alpha, double albedo,
-                       double mu_in, double mu_out);
-/// Of it, what leaves in order 1, 2 or 3, over the hemisphere.
+/// What leaves in order 1, 2 or 3, over the hemisphere: order 1 is what the others leave over, so
+/// that they never add up to more than came in.
 double lobeModelShare(const LobePolynomials& polynomials, double alpha, double albedo, double mu_in,
                       int order);
+
+/// The run-time model of one roughness: single scattering is a Lambertian lobe, and the lobes of
+/// higher orders are cut off where they would make a white furnace brighter than white. They are
+/// not reciprocal, so that towards the horizon they would.
+class LobeModel {
+ public:
+  LobeModel(const LobePolynomials& polynomials, double alpha);
+
+  /// Energy per solid angle.
+  double energy(double albedo, double mu_in, double mu_out) const;
+  /// Share of the light of a white furnace that leaves after more than one bounce, at albedo 1.
+  double scattered() const { return scattered_; }
+  /// Radiance that the higher orders would send out of a white furnace at albedo 1, over
+  /// mu_out^(eta - 1): without masking, and masked on the way in alone.
+  struct Means {
+    double plain = 0, masked = 0;
+  };
+  Means means(double mu_out) const;
+
+ private:
+  LobePolynomials polynomials_;
+  double alpha_, third_, scattered_ = 0;
+  std::vector<Lobe> lobes_;  // at fixed cosines of incidence
+};
 
 /// [EON]: the BRDF of roughness r in [0, 1], single and multiple scattering, for unit directions.
 struct EonValue {

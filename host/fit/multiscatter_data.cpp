@@ -50,7 +50,8 @@ std::string toJson(const MultiscatterData& data) {
                                 {{"scale", data.refit.scale},
                                  {"exponent", data.refit.exponent},
                                  {"flattening", data.refit.flattening},
-                                 {"third_order", data.refit.third_order}}},
+                                 {"third_order", data.refit.third_order},
+        {"third_order_knee", data.refit.third_order_knee}}},
                                {"eon_roughness", {{"top", data.eon.top}, {"knee", data.eon.knee}}},
                                {"mirror",
                                 {{"alpha", data.mirror.alphas},
@@ -73,6 +74,7 @@ MultiscatterData readMultiscatterData(const std::filesystem::path& path) {
     refit.at("exponent").get_to(data.refit.exponent);
     refit.at("flattening").get_to(data.refit.flattening);
     refit.at("third_order").get_to(data.refit.third_order);
+    refit.at("third_order_knee").get_to(data.refit.third_order_knee);
     const nlohmann::json& eon = json.at("eon_roughness");
     eon.at("top").get_to(data.eon.top);
     eon.at("knee").get_to(data.eon.knee);

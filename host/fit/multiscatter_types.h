@@ -6,6 +6,6 @@ namespace glintmark {
 
 #include "kernels/multiscatter.h"
 
-static_assert(sizeof(MultiscatterMaterial) == 144);
+static_assert(sizeof(MultiscatterMaterial) == 208);
 
 }  // namespace glintmark

@@ -10,6 +10,7 @@ namespace glintmark {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+constexpr double kLeastRoom = 1e-6;  // of a surface so smooth that nothing is scattered twice
 
 // The polynomial through a function on [0, 1] at Chebyshev points, by Newton's divided differences.
 void interpolate(const std::function<double(double)>& f, float (&out)[MS_DEGREES]) {
@@ -46,6 +47,7 @@ void prepareLobes(const Material& material, LobePolynomials p, MultiscatterMater
   const double alpha = material.diffuse_roughness;
   p.masking = material.diffuse_masking;
   const double eta = lobeAt(p, 1, alpha).exponent;
+  const double third = p.thirdOverSecond(alpha);
   out.alpha = static_cast<float>(alpha);
   out.masking = static_cast<float>(p.masking);
   out.scale = atRoughness(p.scale, alpha);
@@ -53,9 +55,13 @@ void prepareLobes(const Material& material, LobePolynomials p, MultiscatterMater
   out.exponent = static_cast<float>(eta - 1);
   out.single = mapColour(material.glint.albedo, [](double rho) { return rho / kPi; });
   out.multiple = mapColour(material.glint.albedo, [&](double rho) {
-    return rho * rho * (1 + p.third_order * rho) * (2 + eta) / (2 * kPi * kPi);
+    return rho * rho * (1 + third * rho) * (2 + eta) / (2 * kPi * kPi);
   });
   interpolate([&](double mu) { return lobeModelShare(p, alpha, 1, mu, 1); }, out.share);
+  const LobeModel model(p, alpha);
+  const double room = std::max(model.scattered(), kLeastRoom);
+  interpolate([&](double mu) { return model.means(mu).plain / room; }, out.crowd);
+  interpolate([&](double mu) { return model.means(mu).masked / room; }, out.masked_crowd);
 }
 
 void prepareEon(const GlintMaterial& material, double r, MultiscatterMaterial& out) {

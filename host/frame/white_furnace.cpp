@@ -1,5 +1,6 @@
 #include "host/frame/white_furnace.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
 #include <numbers>
@@ -11,8 +12,9 @@ namespace glintmark {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr int kSlopes = 64, kAzimuths = 16;  // azimuths over a whole turn
+constexpr int kSlopes = 128, kAzimuths = 32;  // azimuths over a whole turn
 constexpr int kLights = kSlopes * kAzimuths;
+constexpr std::size_t kLightsPerFrame = 1024;  // whose description fits constant memory of 64 KiB
 constexpr int kSide_px = 2;
 
 struct PartOfSky {
@@ -76,23 +78,27 @@ double whiteFurnace(Device& device, const Material& material, double view_cosine
   View view;
   view.fov_y_deg = 0.01;
   view.near_plane = 1e-3;
-  // Azimuth 0 puts the eye towards +z.
   view = orbitView(view, {.angle_deg = std::asin(view_cosine) * 180 / kPi});
   scene.views = {view};
   const glm::dvec3 towards = glm::normalize(view.eye - view.target);
   const glm::dvec3 local(towards.z, towards.x, towards.y);  // x' = z, y' = x, z' = y
-  for (const PartOfSky& part :
-       material.glint.intensity > 0 ? mirroredSky(local, material.glint.alpha_g.x) : evenSky()) {
-    const auto power = static_cast<float>(part.solid_angle);
-    scene.lights.push_back(
-        {{static_cast<float>(part.direction.y), static_cast<float>(part.direction.z),
-          static_cast<float>(part.direction.x), 0},
-         {power, power, power, 0}});
+  const std::vector<PartOfSky> sky =
+      material.glint.intensity > 0 ? mirroredSky(local, material.glint.alpha_g.x) : evenSky();
+  double sum = 0;
+  for (std::size_t first = 0; first < sky.size(); first += kLightsPerFrame) {
+    scene.lights.clear();
+    for (std::size_t k = first; k < std::min(first + kLightsPerFrame, sky.size()); ++k) {
+      const glm::vec3 direction(sky[k].direction);
+      const auto power = static_cast<float>(sky[k].solid_angle);
+      scene.lights.push_back(
+          {{direction.y, direction.z, direction.x, 0}, {power, power, power, 0}});
+    }
+    FrameRenderer renderer(device, scene, view, {.width_px = kSide_px, .height_px = kSide_px});
+    renderer.prepare();
+    renderer.shade();
+    sum += renderer.readRadiance().at(kSide_px / 2, kSide_px / 2)[0];
   }
-  FrameRenderer renderer(device, scene, view, {.width_px = kSide_px, .height_px = kSide_px});
-  renderer.prepare();
-  renderer.shade();
-  return renderer.readRadiance().at(kSide_px / 2, kSide_px / 2)[0];
+  return sum;
 }
 
 }  // namespace glintmark

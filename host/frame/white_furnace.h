@@ -9,7 +9,7 @@
 namespace glintmark {
 
 /// Radiance of a plane of the material towards directions of cosine `view_cosine` from its normal,
-/// in (0, 1]. Its red channel; 1 where nothing is lost. The light comes as 1024 point lights: their
+/// in (0, 1]. Its red channel; 1 where nothing is lost. The light comes as 4096 point lights: their
 /// directions are spread evenly over the quantiles of the specular lobe, or over the hemisphere if
 /// the material has none (intensity 0).
 double whiteFurnace(Device& device, const Material& material, double view_cosine);

@@ -7,28 +7,6 @@
 #include "host/reference/beckmann.h"
 
 namespace glintmark::reference {
-namespace {
-
-// Lambda(w) w.z, which stays finite at the horizon: there it is alpha / 2 (GGX) or
-// alpha / (2 sqrt(pi)) (Beckmann).
-double lambdaTimesCosine(Ndf ndf, const glm::dvec3& w, double alpha) {
-  const double z = std::max(w.z, 0.0), sine_sq = w.x * w.x + w.y * w.y;
-  if (ndf == Ndf::kGgx) {
-    const double alpha_sine_sq = alpha * alpha * sine_sq;
-    // (sqrt(z^2 + a^2 s^2) - z) / 2 without cancellation.
-    const double sum = std::sqrt(z * z + alpha_sine_sq) + z;
-    return sum > 0 ? 0.5 * alpha_sine_sq / sum : 0;
-  }
-  const double alpha_sine = alpha * std::sqrt(sine_sq);
-  if (alpha_sine <= 0) return 0;
-  const double a = z / alpha_sine;
-  const double value =
-      std::exp(-a * a) * alpha_sine / std::sqrt(std::numbers::pi) - z * std::erfc(a);
-  return std::max(0.5 * value, 0.0);  // cancels for large a
-}
-
-}  // namespace
-
 std::string ndfName(Ndf ndf) {
   return ndf == Ndf::kGgx ? "ggx" : "beckmann";
 }
@@ -41,22 +19,42 @@ double microfacetDensity(Ndf ndf, const glm::dvec3& m, double alpha) {
   return 1 / (std::numbers::pi * alpha * alpha * root * root);
 }
 
-double microfacetLambda(Ndf ndf, const glm::dvec3& w, double alpha) {
-  return lambdaTimesCosine(ndf, w, alpha) / w.z;
+// At the horizon it is alpha / 2 (GGX) or alpha / (2 sqrt(pi)) (Beckmann).
+double lambdaTimesCosine(Ndf ndf, const glm::dvec3& w, double alpha, SmithForm form) {
+  const double z = std::max(w.z, 0.0), sine_sq = w.x * w.x + w.y * w.y;
+  if (ndf == Ndf::kGgx) {
+    const double alpha_sine_sq = alpha * alpha * sine_sq;
+    // (sqrt(z^2 + a^2 s^2) - z) / 2 without cancellation.
+    const double sum = std::sqrt(z * z + alpha_sine_sq) + z;
+    return sum > 0 ? 0.5 * alpha_sine_sq / sum : 0;
+  }
+  const double alpha_sine = alpha * std::sqrt(sine_sq);
+  if (alpha_sine <= 0) return 0;
+  const double a = z / alpha_sine;
+  if (form == SmithForm::kRational)
+    return a < 1.6 ? alpha_sine * (1 - a * (1.259 - 0.396 * a)) / (3.535 + 2.181 * a) : 0;
+  const double value =
+      std::exp(-a * a) * alpha_sine / std::sqrt(std::numbers::pi) - z * std::erfc(a);
+  return std::max(0.5 * value, 0.0);  // cancels for large a
 }
 
-double microfacetTimesCosine(Ndf ndf, const glm::dvec3& i, const glm::dvec3& o, double alpha) {
+double microfacetLambda(Ndf ndf, const glm::dvec3& w, double alpha) {
+  return lambdaTimesCosine(ndf, w, alpha, SmithForm::kExact) / w.z;
+}
+
+double microfacetTimesCosine(Ndf ndf, const glm::dvec3& i, const glm::dvec3& o, double alpha,
+                             SmithForm form) {
   if (i.z <= 0 || o.z < 0) return 0;
   const glm::dvec3 sum = i + o;
   const glm::dvec3 m = sum / std::sqrt(glm::dot(sum, sum));
   // G2 / o.z = i.z / (i.z o.z + i.z L(o) o.z + o.z L(i) i.z), finite for a grazing view.
-  const double lambda_o = lambdaTimesCosine(ndf, o, alpha);
-  const double lambda_i = lambdaTimesCosine(ndf, i, alpha);
+  const double lambda_o = lambdaTimesCosine(ndf, o, alpha, form);
+  const double lambda_i = lambdaTimesCosine(ndf, i, alpha, form);
   const double masking = i.z / (i.z * (o.z + lambda_o) + o.z * lambda_i);
   return 0.25 * microfacetDensity(ndf, m, alpha) * masking;
 }
 
-double microfacetAlbedo(Ndf ndf, double mu, double alpha) {
+double microfacetAlbedo(Ndf ndf, double mu, double alpha, SmithForm form) {
   // Normals m with quantile u of their slope and azimuth phi: d m = 1 / (D m.z) d(u, phi / 2 pi),
   // and d i = 4 o.m d m. GGX: slope^2 = alpha^2 u / (1 - u); Beckmann: -alpha^2 log(1 - u).
   constexpr int kSlopes = 192, kAzimuths = 96;  // azimuths over half a turn
@@ -73,7 +71,7 @@ double microfacetAlbedo(Ndf ndf, double mu, double alpha) {
       const double cosine = glm::dot(o, m);
       if (cosine <= 0) continue;
       const glm::dvec3 i = 2 * cosine * m - o;
-      sum += microfacetTimesCosine(ndf, i, o, alpha) * 4 * cosine /
+      sum += microfacetTimesCosine(ndf, i, o, alpha, form) * 4 * cosine /
              (microfacetDensity(ndf, m, alpha) * m.z);
     }
   }

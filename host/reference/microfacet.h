@@ -21,15 +21,24 @@ std::string ndfName(Ndf ndf);
 /// alpha > 0. [Walter07] Eq. 25 and 33
 double microfacetDensity(Ndf ndf, const glm::dvec3& m, double alpha);
 
+/// How Smith's Lambda of a Beckmann surface is had: exactly, or by the rational fit that the
+/// kernels use, good to 0.35 % of G1. [Walter07] Sect. 5.2
+enum class SmithForm { kExact, kRational };
+
+/// Lambda(w) w.z for w.z >= 0, which stays finite at the horizon.
+double lambdaTimesCosine(Ndf ndf, const glm::dvec3& w, double alpha,
+                         SmithForm form = SmithForm::kExact);
+
 /// Smith's Lambda of a direction w with w.z > 0. [Heitz14] Eq. 72 (GGX) and 61 (Beckmann)
 double microfacetLambda(Ndf ndf, const glm::dvec3& w, double alpha);
 
 /// BRDF times i.z at a Fresnel term of 1: D(m) G2(i, o) / (4 o.z); 0 where i or o is not above the
 /// surface. Its limit for a grazing view, o.z = 0, is finite and is what this returns there.
-double microfacetTimesCosine(Ndf ndf, const glm::dvec3& i, const glm::dvec3& o, double alpha);
+double microfacetTimesCosine(Ndf ndf, const glm::dvec3& i, const glm::dvec3& o, double alpha,
+                             SmithForm form = SmithForm::kExact);
 
 /// Directional albedo at a Fresnel term of 1: integral of that over i for one o with o.z = mu, 0 to
 /// 1, by a fixed rule over the normals' slopes, good to 3e-4 for alpha in [0.01, 1].
-double microfacetAlbedo(Ndf ndf, double mu, double alpha);
+double microfacetAlbedo(Ndf ndf, double mu, double alpha, SmithForm form = SmithForm::kExact);
 
 }  // namespace glintmark::reference

@@ -64,7 +64,7 @@ void drawSeries(Image& image, const Plot& plot, const ChartSeries& series) {
 }
 
 std::string tickLabel(double value) {
-  return value == 0 ? "0" : fmt::format("{:.3g}", value);
+  return value == 0 ? "0" : fmt::format("{:.2g}", value);
 }
 
 void drawAxes(Image& image, const Plot& plot) {
