@@ -28,6 +28,26 @@ TEST(LobeFit, RecoversAFreeLobe) {
   EXPECT_NEAR(fitted.deviation_rad, truth.deviation_rad, 0.02);
 }
 
+// All five parameters of [PAT18] leave a mark: the fit finds each of them.
+TEST(LobeFit, RecoversEachOfTheFiveParameters) {
+  const FreeLobe truth{0.4, 1.2, 0.8, -0.15, 0.7, 0};
+  const LobeData data = syntheticData(0.9, 0.35, 2, truth);
+  const FreeLobe fitted = fitLobe(data);
+  EXPECT_LT(fitted.error, 1e-3);
+  EXPECT_NEAR(fitted.exponent, truth.exponent, 0.1);
+  EXPECT_NEAR(fitted.flattening, truth.flattening, 0.05);
+  EXPECT_NEAR(fitted.deviation_rad, truth.deviation_rad, 0.02);
+  EXPECT_NEAR(fitted.masking, truth.masking, 0.1);
+  const FreeLobe unmasked = fitLobe(data, false);
+  EXPECT_EQ(unmasked.masking, 0);
+  EXPECT_GT(unmasked.error, 2 * fitted.error);
+}
+
+TEST(LobeFit, RoughnessOfALobeIsThePapers) {
+  EXPECT_EQ((FreeLobe{1, 0, 1, 0, 0, 0}.roughness()), 1);
+  EXPECT_NEAR((FreeLobe{1, 1023, 1, 0, 0, 0}.roughness()), 0, 1e-12);
+}
+
 TEST(LobeFit, EmptyDataGiveAnEmptyLobe) {
   const FreeLobe nothing{0, 1, 1, 0, 0, 0};
   EXPECT_EQ(fitLobe(syntheticData(0.1, 1, 4, nothing)).scale, 0);
@@ -53,7 +73,28 @@ TEST(LobeFit, PolynomialsThatMadeTheDataFitThem) {
                         }),
               0.01);
   }
-  EXPECT_NEAR(fitted.third_order, kPublishedCode.third_order, 1e-3);
+  for (const double alpha : {0.2, 0.6, 1.0})
+    EXPECT_NEAR(fitted.thirdOverSecond(alpha), kPublishedCode.third_order, 1e-3);
+}
+
+TEST(LobeFit, EonsRoughnessIsFoundAgain) {
+  const EonRoughness truth{0.6, 0.4};
+  std::vector<LobeData> totals;
+  for (const double alpha : {0.2, 0.5, 1.0})
+    for (const double mu : {0.3, 0.9}) {
+      LobeData data;
+      data.alpha = alpha;
+      data.mu_in = mu;
+      for (int row = 0; row < LobeData::kCosines; ++row)
+        for (int column = 0; column < LobeData::kAzimuths; ++column)
+          data.energy.push_back(
+              eonEnergy(truth.at(alpha), mu, LobeData::cosine(row), LobeData::azimuth(column)));
+      data.share = 1;
+      totals.push_back(std::move(data));
+    }
+  const EonRoughness fitted = fitEonRoughness(totals);
+  EXPECT_NEAR(fitted.top, truth.top, 1e-3);
+  EXPECT_NEAR(fitted.knee, truth.knee, 1e-3);
 }
 
 }  // namespace

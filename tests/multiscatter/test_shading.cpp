@@ -20,12 +20,12 @@ constexpr double kTolerance = 2e-3;
 double reference(DiffuseModel model, double alpha, double albedo, const glm::dvec3& light,
                  const glm::dvec3& view) {
   if (model == DiffuseModel::kEon) {
-    const EonValue v = eonBrdf(light, view, eonRoughness(alpha), albedo);
+    const EonValue v = eonBrdf(light, view, multiscatterData().eon.at(alpha), albedo);
     return (v.single + v.multiple) * light.z;
   }
   const LobePolynomials& p =
       model == DiffuseModel::kRefit ? multiscatterData().refit : kPublishedCode;
-  return lobeModelEnergy(p, alpha, albedo, light.z, view.z) / view.z * light.z;
+  return LobeModel(p, alpha).energy(albedo, light.z, view.z) / view.z * light.z;
 }
 
 TEST(MultiscatterShading, KernelsAgreeWithDoublePrecision) {
