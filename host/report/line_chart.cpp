@@ -86,7 +86,12 @@ double greatestOf(const ChartPanel& panel) {
   for (const ChartSeries& series : panel.series)
     for (const double y : series.y)
       if (std::isfinite(y)) most = std::max(most, y);
-  return most > 0 ? most * 1.05 : 1;
+  if (most <= 0) return 1;
+  // The least number of two digits or fewer that four round steps make up.
+  const double decade = std::pow(10, std::floor(std::log10(most / kTicks)));
+  for (const double step : {1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0})
+    if (kTicks * step * decade >= most) return kTicks * step * decade;
+  return kTicks * 10 * decade;
 }
 
 void drawLegend(Image& image, int y, const ChartPanel& panel, const ChartOptions& options) {

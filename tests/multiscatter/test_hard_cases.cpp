@@ -18,11 +18,16 @@ namespace glintmark {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-/// Relative to a Lambertian lobe's radiance: single precision, the polynomials in a cosine (1e-4)
-/// and, with masking, those of the furnace near the horizon.
-constexpr double kModelTolerance = 2e-3;
+/// Relative to a Lambertian lobe's radiance: single precision and the polynomials in a cosine.
+constexpr double kModelTolerance = 5e-4;
+/// With masking, which on smooth surfaces sets in within cosines of the size of their roughness:
+/// polynomials do not follow that, and are off by part of the two hundredths that the published
+/// lobes hold there.
+constexpr double kMaskedTolerance = 3e-3;
 /// Below this cosine of the view mu^(eta - 1) no longer grows in the kernels.
 constexpr double kLeastComparedCosine = 0.02;
+/// Below this cosine of the light the kernels' masking no longer falls.
+constexpr double kLeastLightCosine = 1e-6;
 
 struct DirectionPair {
   glm::dvec3 light, view;
@@ -127,6 +132,7 @@ TEST_P(EveryModel, IsFiniteNotNegativeAndAsInDoublePrecision) {
             GetParam() == DiffuseModel::kPublished ? kPublishedCode : multiscatterData().refit;
         set.masking = masking;
         const LobeModel lobes(set, material.diffuse_roughness);
+        const double tolerance = masking > 0 ? kMaskedTolerance : kModelTolerance;
         const std::vector<Radiance> probed = probe(pairs, material, 16);
         for (std::size_t i = 0; i < pairs.size(); ++i) {
           const std::string where = fmt::format("alpha {} albedo {} masking {} in {} out {}", alpha,
@@ -139,9 +145,11 @@ TEST_P(EveryModel, IsFiniteNotNegativeAndAsInDoublePrecision) {
             ASSERT_EQ(sum, 0) << where;
           }
           // One albedo is enough for the comparison: it is a factor per order.
-          if (albedo != 0.5 || pairs[i].view.z < kLeastComparedCosine) continue;
+          if (albedo != 0.5 || pairs[i].view.z < kLeastComparedCosine ||
+              (pairs[i].light.z > 0 && pairs[i].light.z < kLeastLightCosine))
+            continue;
           ASSERT_NEAR(sum, expectedRadiance(material, lobes, pairs[i]),
-                      kModelTolerance * std::max(pairs[i].light.z, sum))
+                      tolerance * std::max(pairs[i].light.z, sum))
               << where;
         }
       }
