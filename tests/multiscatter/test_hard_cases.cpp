@@ -64,14 +64,14 @@ std::string probeOptions(const KernelConfig& config, const std::string& path) {
 
 // What the kernels make of the pairs, colours of `albedo` included.
 std::vector<Radiance> probe(const std::vector<DirectionPair>& pairs, const Material& material,
-                            int width) {
+                            int width, bool masking_compiled_in = false) {
   KernelBench& bench = KernelBench::shared();
   KernelConfig config;
   config.width = width;
   config.glint = false;
   config.diffuse = true;
   config.multiscatter = static_cast<Multiscatter>(material.diffuse_model);
-  config.lobe_masking = material.diffuse_masking > 0;
+  config.lobe_masking = masking_compiled_in || material.diffuse_masking > 0;
   const std::size_t n = (pairs.size() + 15) / 16 * 16;
   std::vector<float> in(6 * n), out(2 * n);
   for (std::size_t i = 0; i < n; ++i) {
@@ -167,6 +167,27 @@ TEST_P(EveryModel, EveryWidthGivesTheSameBits) {
       ASSERT_EQ(one[i].multiple, wide[i].multiple) << width;
     }
   }
+}
+
+TEST(Masking, OfNoImportanceChangesNoBit) {
+  const std::vector<DirectionPair> pairs = denseDirections();
+  const Material material = roughMaterial(DiffuseModel::kRefit, 0.7, 0.8);
+  const auto without = probe(pairs, material, 16), with = probe(pairs, material, 16, true);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    ASSERT_EQ(without[i].single, with[i].single);
+    ASSERT_EQ(without[i].multiple, with[i].multiple);
+  }
+}
+
+TEST(Masking, DarkensGrazingLobes) {
+  const std::vector<DirectionPair> grazing = {{direction(0.1, 0), direction(0.1, 2)}};
+  const auto multiple = [&](double masking) {
+    return probe(grazing, roughMaterial(DiffuseModel::kRefit, 1, 1, masking), 16)[0].multiple;
+  };
+  const double g = smithMasking(0.1, 1);
+  // [PAT18] "Analytical Lobe Expression"; nothing is cut off here.
+  EXPECT_NEAR(multiple(0.5) / multiple(0), 0.5 + 0.5 * g * g, 2e-3);
+  EXPECT_NEAR(multiple(1) / multiple(0), g * g, 2e-3);
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, EveryModel,

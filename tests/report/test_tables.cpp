@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "host/core/error.h"
+#include "host/report/msbrdf_table.h"
 #include "host/report/text_table.h"
 #include "host/report/zk16_table.h"
 #include "tests/report/sample_records.h"
@@ -113,6 +114,24 @@ TEST(Zk16Table, NormalisedCostIsOneForThePapersGpu) {
   EXPECT_DOUBLE_EQ(normalisedCost(2.9, kGtx980PeakGflops, 2.9), 1);
   // The prototype's plane: 41 ms at 450 GFLOP/s against 0.9 ms.
   EXPECT_NEAR(normalisedCost(41, 450, 0.9), 4.1, 0.05);
+}
+
+TEST(MsbrdfTable, FitsHundredColumnsAndMarksWhatIsNotValid) {
+  std::vector<Record> records;
+  const auto add = [&](const std::string& name, std::initializer_list<const char*> metrics) {
+    for (const char* metric : metrics) records.push_back(sampleRecord(name, metric, 0.123456));
+  };
+  add("surface/alpha=0.24", {"rays_per_s", "order_1", "order_2", "order_6"});
+  add("model/alpha=0.24", {"lobe_error", "lobe_error_published", "lobe_error_eon", "furnace"});
+  add("energy/alpha=0.24/theta=60", {"order_1", "order_1_eon", "order_2_refit", "order_3"});
+  add("metal/alpha=0.24", {"furnace_before", "furnace_after"});
+  add("all", {"runtime_ms", "lambert_ms", "simulate_500m_ms", "normalised_cost"});
+  records.back().valid = false;
+  const std::string text = msbrdfTableText(records);
+  EXPECT_LE(widestLine(text), kTableColumnsLimit);
+  EXPECT_NE(text.find("normalised cost 0.12!"), std::string::npos) << text;
+  EXPECT_NE(text.find("alpha=0.24/theta=60"), std::string::npos);
+  EXPECT_NE(text.find("about 500 ms"), std::string::npos);
 }
 
 }  // namespace
