@@ -27,7 +27,7 @@ constexpr int kMirrorNodes = 33;   // of the warped cosine, from 0 to 1
 
 struct FitLobesOptions {
   std::string folder = "results/latest", data, picture;
-  double rays = 1 << 21, mirror_rays = 1 << 19;
+  double rays = 1 << 21, mirror_rays = 1 << 17;
 };
 
 class LobeFitRun {
@@ -200,7 +200,7 @@ void addFitLobesCommand(CLI::App& fit, CommandLine& line) {
   command->add_option("--data", options->data, "Where multiscatter.json goes (the output folder)")
       ->type_name("FILE");
   command->add_option("--rays", options->rays, "Rays per roughness and incidence (2^21)");
-  command->add_option("--mirror-rays", options->mirror_rays, "Rays per entry of the mirror (2^19)");
+  command->add_option("--mirror-rays", options->mirror_rays, "Rays per entry of the mirror (2^17)");
   command
       ->add_option("--picture", options->picture, "Errors over roughness and incidence, sections")
       ->type_name("FILE.png");

@@ -80,10 +80,17 @@ void prepareCompensation(const Material& material, const MirrorAlbedo& mirror,
                          MultiscatterMaterial& out) {
   const double alpha =
       std::sqrt(static_cast<double>(material.glint.alpha_g.x) * material.glint.alpha_g.y);
-  const std::vector<double>& energy =
-      material.compensation == Compensation::kSimulated ? mirror.simulated : mirror.lobe;
   out.warp = static_cast<float>(MS_WARP * alpha);
-  interpolate([&](double t) { return 1 / mirror.at(energy, alpha, t) - 1; }, out.compensation);
+  interpolate(
+      [&](double t) {
+        // Never more than the lobe lacks, whatever the noise of a simulation.
+        const double lobe = mirror.at(mirror.lobe, alpha, t);
+        const double energy = material.compensation == Compensation::kSimulated
+                                  ? std::max(mirror.at(mirror.simulated, alpha, t), lobe)
+                                  : lobe;
+        return 1 / energy - 1;
+      },
+      out.compensation);
 }
 
 }  // namespace

@@ -65,7 +65,7 @@ struct NormalMapSource {
 enum class DiffuseModel : int { kLambert, kPublished, kRefit, kEon };
 
 /// What a specular lobe gets back of the light that it loses to further bounces: nothing, what it
-/// lacks itself, so that a white furnace stays white, or what the simulated surfaces lack.
+/// lacks itself, so that a white furnace stays white, or of that what the simulated surfaces lack.
 enum class Compensation : int { kOff, kLobe, kSimulated };
 
 /// [ZK16] Sect. 4.5, ready for the device, with what selects the effects.
