@@ -264,8 +264,10 @@ kernel void traceRays(global const uint* heights, global const uint* cones,
       for (uint g = 0; g < GROUPS; ++g) {
         Flight* f = &flights[g];
         fly(f, heights, cones);
-        stop |= countLanes(f->met | f->out | (f->flying & (f->steps > HF_MOST_STEPS))) >= SOME_WAIT;
-        flying |= anyLane(f->flying);
+        const vmask stuck = f->flying & (f->steps > HF_MOST_STEPS);
+        stop |= countLanes(f->met | f->out | stuck) >= SOME_WAIT;
+        // Too few stuck lanes to be served must not fly on for ever.
+        flying |= anyLane(f->flying & !stuck);
       }
     } while (!stop && flying);
     busy = 0;
