@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <memory>
 
 #include "host/cli/fit_commands.h"
@@ -22,6 +23,7 @@ constexpr int kAlphas = 11;
 constexpr double kFirstAlpha = 0.05, kLastAlpha = 1;
 constexpr double kIncidences_deg[] = {0, 10, 20, 30, 40, 50, 60, 70, 80, 85};
 constexpr double kLeastRays = 1000, kMostRays = 1e12;
+constexpr double kRaysPerMirrorSurface = 1 << 14, kMostMirrorSurfaces = 8;
 constexpr int kMirrorAlphas = 18;  // 1/64, 1/32, then multiples of 1/16
 constexpr int kMirrorNodes = 33;   // of the warped cosine, from 0 to 1
 
@@ -43,6 +45,7 @@ class LobeFitRun {
  private:
   Simulation simulate(SimulationSettings settings, const std::string& what);
   void simulateDiffuse();
+  int mirrorSurfaces() const;
   double mirrorEnergy(double alpha, double mu);
   void makeMirror();
   std::string tables() const;
@@ -58,9 +61,9 @@ class LobeFitRun {
 
 Simulation LobeFitRun::simulate(SimulationSettings settings, const std::string& what) {
   if (InterruptGuard::interrupted()) throw Interrupted("interrupted; nothing is written");
-  constexpr int kTotal =
-      kAlphas * static_cast<int>(std::size(kIncidences_deg)) + kMirrorAlphas * (kMirrorNodes - 1);
-  progress_.show(done_++, kTotal, what);
+  const int total = kAlphas * static_cast<int>(std::size(kIncidences_deg)) +
+                    kMirrorAlphas * (kMirrorNodes - 1) * mirrorSurfaces();
+  progress_.show(done_++, total, what);
   return simulator_.run(settings);
 }
 
@@ -86,6 +89,12 @@ void LobeFitRun::simulateDiffuse() {
   }
 }
 
+// Surfaces differ by half a percent of the energy, more than the rays' counting error.
+int LobeFitRun::mirrorSurfaces() const {
+  return static_cast<int>(
+      std::clamp(options_.mirror_rays / kRaysPerMirrorSurface, 1.0, kMostMirrorSurfaces));
+}
+
 double LobeFitRun::mirrorEnergy(double alpha, double mu) {
   SimulationSettings s;
   s.kind = SurfaceKind::kMetal;
@@ -94,9 +103,13 @@ double LobeFitRun::mirrorEnergy(double alpha, double mu) {
   s.alpha = glm::dvec2(alpha);
   s.incidence_deg = glm::degrees(std::acos(std::min(mu, 1.0)));
   s.orders = 1;
-  s.rays = static_cast<std::uint64_t>(options_.mirror_rays);
-  s.seed = static_cast<std::uint32_t>(done_ + 1);
-  return orderEnergy(simulate(s, "mirrors"), 1);
+  s.rays = static_cast<std::uint64_t>(options_.mirror_rays / mirrorSurfaces());
+  double sum = 0;
+  for (int k = 0; k < mirrorSurfaces(); ++k) {
+    s.seed = static_cast<std::uint32_t>(done_ + 1);
+    sum += orderEnergy(simulate(s, "mirrors"), 1);
+  }
+  return sum / mirrorSurfaces();
 }
 
 void LobeFitRun::makeMirror() {
