@@ -1,34 +1,53 @@
-// The shading entry point: one work-item shades WIDTH entries of one material's pixel list.
+// The shading entry point: one work-item shades WIDTH entries of a pixel list. A program for one
+// material shades that material's list; a program for all materials (ALL_MATERIALS) shades any
+// list, with each entry's material in `owners`.
 #include "config.clh"
 #include "types.h"
 #include "wide.clh"
 
-#if LTC
-#include "area_surface.clh"
-#endif
-#include "pixel.clh"
-#if CONE_LIGHTS
-#include "cone_light.clh"
-#if MULTISCATTER != MULTISCATTER_OFF || METAL_COMPENSATION
-#include "multiscatter.clh"
-#endif
-#if GLINT
-#include "glint_pixel.clh"
-#endif
+#include "shade_pixels.clh"
+
+#if ALL_MATERIALS
+// Shades entries `entry` and following, which may belong to several materials: one after another,
+// each by its own branches, and every lane keeps what its own material gave.
+WIDE vfloat3 shadeOwners(Shading shading, vint owner, size_t entry) {
+  vfloat3 sum = {(vfloat)(0.0f), (vfloat)(0.0f), (vfloat)(0.0f)};
+  constant const GlintMaterial* materials = shading.material;
 #if NORMAL_MAP
-#include "normal_surface.clh"
+  constant const MipTexture* maps = shading.map;
 #endif
+#if SCATTERING
+  constant const MultiscatterMaterial* scatters = shading.scatter;
+#endif
+  for (int index = maxLane(owner); index >= 0; index = maxLane(owner)) {
+    shading.material = &materials[index];
+#if NORMAL_MAP
+    shading.map = &maps[index];
+#endif
+#if SCATTERING
+    shading.scatter = &scatters[index];
+#endif
+    const vfloat3 shaded = shadePixels(&shading, entry);
+    const vmask own = owner == index;
+    sum.x = own ? shaded.x : sum.x;
+    sum.y = own ? shaded.y : sum.y;
+    sum.z = own ? shaded.z : sum.z;
+    owner = own ? (vint)(-1) : owner;
+  }
+  return sum;
+}
 #endif
 
-// planes: frame->plane_stride entries each, slots given by the PLANE_* switches. radiance: three
-// planes (r, g, b) of the same stride. cells: visited cells | 2^31 where a limit cut the walk.
+// planes: see Shading. radiance: three planes (r, g, b) of the same stride. cells: visited cells |
+// 2^31 where a limit cut the walk. With ALL_MATERIALS material, map and scatter are arrays over all
+// materials.
 kernel void shade(global const uint* planes, constant const FrameParams* frame,
                   constant const GlintMaterial* material, constant const LightParams* lights,
                   constant const float4* taps,
 #if NORMAL_MAP
                   constant const MipTexture* map, global const float4* map_texels,
 #endif
-#if MULTISCATTER != MULTISCATTER_OFF || METAL_COMPENSATION
+#if SCATTERING
                   constant const MultiscatterMaterial* scatter,
 #endif
 #if LTC
@@ -36,6 +55,9 @@ kernel void shade(global const uint* planes, constant const FrameParams* frame,
 #if LIGHT_TEXTURE
                   constant const MipTexture* pictures, global const float4* picture_texels,
 #endif
+#endif
+#if ALL_MATERIALS
+                  global const uint* owners,
 #endif
                   global float* radiance
 #if COUNT_CELLS
@@ -48,88 +70,42 @@ kernel void shade(global const uint* planes, constant const FrameParams* frame,
   const size_t entry = frame->list_offset + first;
   const size_t stride = frame->plane_stride;
 
-  const ShadingFrame basis = unpackFrame(loadUint(planes, PLANE_FRAME0 * stride + entry),
-                                         loadUint(planes, PLANE_FRAME1 * stride + entry));
-  vfloat3 sum = {(vfloat)(0.0f), (vfloat)(0.0f), (vfloat)(0.0f)};
-#if COUNT_CELLS
-  vint cells = (vint)(0);
-  vmask limited = (vint)(0);
-#endif
-#if CONE_LIGHTS
-  const vfloat3 view = viewDirection(loadUint(planes, PLANE_PIXEL * stride + entry), frame, basis);
-  const SmithLambda lambda_view = smithLambda(view, material->alpha_g);
-
-#if MULTISCATTER != MULTISCATTER_OFF
-  const ScatterView view_terms = scatterView(view, scatter);
-#endif
-#if METAL_COMPENSATION
-  const vfloat lost_energy = lostEnergy(view.z, scatter);
-#endif
-
-#if GLINT
-  const float2 gamma = gridStretch(material->alpha_g, material->alpha_l);
-  const Footprint footprint = loadFootprint(planes, stride, entry, gamma);
-  const CellMaterial cell_material = cellMaterial(material, gamma);
-  const PixelCells pixel_cells = makePixelCells(&footprint, &cell_material);
-#endif
+  Shading shading;
+  shading.planes = planes;
+  shading.frame = frame;
+  shading.material = material;
+  shading.lights = lights;
+  shading.taps = taps;
 #if NORMAL_MAP
-  const PixelNormals normals = loadNormals(planes, stride, entry, map, map_texels);
+  shading.map = map;
+  shading.map_texels = map_texels;
 #endif
-  for (uint i = 0; i < frame->light_count; ++i) {
-    constant const LightParams* light = &lights[i];
-#if NORMAL_MAP
-    const LightLobe lobe = evaluateMappedLight(&normals, basis, view, material, light, taps);
-#else
-    const LightLobe lobe = evaluateLight(basis, view, lambda_view, material, light, taps);
-#endif
-    vfloat3 ratio = {(vfloat)(1.0f), (vfloat)(1.0f), (vfloat)(1.0f)};
-#if GLINT
-    const vmask lit = lobe.probability > MIN_PROBABILITY;
-    ratio.x = ratio.y = ratio.z = (vfloat)(0.0f);
-    if (anyLane(lit)) {
-      const HalfVectorCell half_cell = halfVectorCell(lobe, material, light->direction.w);
-      vint visited = (vint)(0);
-      vmask cut = (vint)(0);
-      const GlintSum share = glintRatio(&pixel_cells, &half_cell, &cell_material, &visited, &cut);
-      // Relative to its expectation, so that the smooth lobe carries units and energy.
-      const vfloat inverse =
-          lit ? wideReciprocal(max(lobe.probability, (vfloat)(MIN_PROBABILITY))) : (vfloat)(0.0f);
-#if GLINT_COLOUR
-      ratio.x = share.x * inverse;
-      ratio.y = share.y * inverse;
-      ratio.z = share.z * inverse;
-#else
-      ratio.x = ratio.y = ratio.z = share * inverse;
-#endif
-#if COUNT_CELLS
-      cells += lit ? visited : (vint)(0);
-      limited = limited | (cut & lit);
-#endif
-    }
-#endif
-#if METAL_COMPENSATION
-    ratio = compensate(ratio, lost_energy, material);
-#endif
-    addLight(lobe, ratio, material, light, &sum);
-#if MULTISCATTER != MULTISCATTER_OFF
-    addScattered(basis, view, view_terms, scatter, light, taps, &sum);
-#endif
-  }
+#if SCATTERING
+  shading.scatter = scatter;
 #endif
 #if LTC
-  const LitPoint point = loadLitPoint(planes, stride, entry, frame, material, basis
-#if NORMAL_MAP
-                                      ,
-                                      map, map_texels
+  shading.area_lights = area_lights;
+  shading.ltc_table = ltc_table;
+#if LIGHT_TEXTURE
+  shading.pictures = pictures;
+  shading.picture_texels = picture_texels;
 #endif
-  );
-  sum = add3(sum, shadeAreaLights(point, material, area_lights, frame->area_light_count, ltc_table,
-                                  frame->ltc_size PICTURE_ARGUMENTS));
+#endif
+#if COUNT_CELLS
+  VisitedCells visited = {(vint)(0), (vint)(0)};
+  shading.visited = &visited;
+#endif
+
+#if ALL_MATERIALS
+  const vfloat3 sum = shadeOwners(shading, bitsToInt(loadUint(owners, entry)), entry);
+#else
+  const vfloat3 sum = shadePixels(&shading, entry);
 #endif
   storeFloat(sum.x, radiance, entry);
   storeFloat(sum.y, radiance, stride + entry);
   storeFloat(sum.z, radiance, 2 * stride + entry);
 #if COUNT_CELLS
-  storeUint(bitsToUint(cells) | (limited ? (vuint)(0x80000000u) : (vuint)(0u)), cell_counts, entry);
+  storeUint(bitsToUint(visited.count) | (visited.limited ? (vuint)(0x80000000u) : (vuint)(0u)),
+            cell_counts, entry);
 #endif
 }

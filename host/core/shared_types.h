@@ -17,7 +17,7 @@ struct alignas(16) float4 {
 #include "kernels/types.h"
 
 static_assert(sizeof(float2) == 8 && sizeof(float4) == 16);
-static_assert(sizeof(GlintMaterial) == 192);
+static_assert(sizeof(GlintMaterial) == 208);
 static_assert(sizeof(ConeLight) == 32);
 static_assert(sizeof(LightParams) == 48);
 static_assert(sizeof(FrameParams) == 80);

@@ -146,6 +146,11 @@ const AreaLightBuffers::Table& AreaLightBuffers::table(bool ggx) {
 
 std::vector<KernelArg> AreaLightBuffers::arguments(const KernelConfig& config) {
   if (!config.ltc) return {};
+  if (light_count_ == 0) {
+    // A program for all materials holds the effect; nobody reads what is handed to it.
+    const Buffer nothing(device_, sizeof(float4), "no area lights");
+    return {nothing, nothing};
+  }
   std::vector<KernelArg> args = {lights_, table(config.ggx).values};
   if (config.light_texture) {
     args.emplace_back(layouts_);
@@ -155,7 +160,7 @@ std::vector<KernelArg> AreaLightBuffers::arguments(const KernelConfig& config) {
 }
 
 void AreaLightBuffers::describe(const KernelConfig& config, FrameParams& params) {
-  if (!config.ltc) return;
+  if (!config.ltc || light_count_ == 0) return;
   params.area_light_count = light_count_;
   params.ltc_size = table(config.ggx).size;
 }

@@ -31,7 +31,8 @@ class AreaLightBuffers {
   AreaLightBuffers(Device& device, const Scene& scene, const glm::dvec3& eye);
 
   /// Arguments of `config`'s kernel: the lights, the NDF's table and, with LIGHT_TEXTURE, the
-  /// layouts and texels of the pictures; none where `config` has no area lights. Loads the shipped
+  /// layouts and texels of the pictures; none where `config` has no area lights, empty ones where
+  /// the scene has none. Loads the shipped
   /// table of the NDF when it is first asked for; throws Error if it is missing or damaged.
   std::vector<KernelArg> arguments(const KernelConfig& config);
   /// Sets the counts that the kernels read.

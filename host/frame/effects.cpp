@@ -1,6 +1,11 @@
 #include "host/frame/effects.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <optional>
+
+#include "host/core/error.h"
 
 namespace glintmark {
 
@@ -74,19 +79,66 @@ KernelConfig configFor(const Material& material, const Scene& scene, const Shadi
   config.method = config.glint ? options.method : GlintMethod::kZk16;
   config.ka = config.glint ? options.ka : 16;
   // The ground truth of normal maps and area lights keeps to the plain lobes.
-  if (config.diffuse && !options.truth)
+  if (config.diffuse && config.cone_lights && !options.truth)
     config.multiscatter = static_cast<Multiscatter>(material.diffuse_model);
   config.lobe_masking =
       material.diffuse_masking > 0 && (config.multiscatter == Multiscatter::kPublished ||
                                        config.multiscatter == Multiscatter::kRefit);
-  config.metal_compensation = material.compensation != Compensation::kOff && !options.truth;
+  config.metal_compensation =
+      material.compensation != Compensation::kOff && config.cone_lights && !options.truth;
   setNormalMap(material, options, config);
   setAreaLights(material, scene, options, config);
   config.planes = planesFor(config);
   return config;
 }
 
+uint effectBits(const KernelConfig& config) {
+  return (config.glint ? EFFECT_GLINT : 0) | (config.groove ? EFFECT_GROOVE : 0) |
+         (config.glint_colour ? EFFECT_GLINT_COLOUR : 0) | (config.diffuse ? EFFECT_DIFFUSE : 0) |
+         (config.normal_map ? EFFECT_NORMAL_MAP : 0) | (config.ltc ? EFFECT_LTC : 0) |
+         (config.multiscatter != Multiscatter::kOff ? EFFECT_MULTISCATTER : 0) |
+         (config.metal_compensation ? EFFECT_METAL_COMPENSATION : 0);
+}
+
+KernelConfig configForAll(const Scene& scene, const ShadingOptions& options, int lanes) {
+  if (options.count_cells || options.truth)
+    throw Error("one program for all materials neither counts cells nor makes the ground truth");
+  // A smooth material with a normal map, for scenes that have none.
+  Material mapped;
+  mapped.has_glints = false;
+  mapped.normal_map.emplace();
+  KernelConfig all = configFor(mapped, scene, options, lanes);
+  std::optional<KernelConfig> map_user, scatterer;
+  for (const Material& material : scene.materials) {
+    const KernelConfig config = configFor(material, scene, options, lanes);
+    if (&material == &scene.materials.front()) all.ggx = config.ggx;
+    if (config.normal_map && !map_user) map_user = config;
+    if (config.multiscatter != Multiscatter::kOff && !scatterer) scatterer = config;
+    const bool alike = config.ggx == all.ggx &&
+                       (!config.normal_map || config.lobes == map_user->lobes) &&
+                       (config.multiscatter == Multiscatter::kOff ||
+                        config.multiscatter == scatterer->multiscatter);
+    if (!alike)
+      throw Error(fmt::format(
+          "one program for all materials needs one NDF, one number of lobes and one model of "
+          "multiple scattering; material '{}' has another than those before it",
+          material.name));
+  }
+  if (map_user) all.lobes = map_user->lobes;
+  all.all_materials = all.glint = all.groove = all.glint_colour = all.size_variation = true;
+  all.cone_lights = all.diffuse = all.ltc = all.metal_compensation = true;
+  all.method = options.method;
+  all.ka = options.ka;
+  all.ltc_method = options.ltc_method;
+  all.multiscatter = scatterer ? scatterer->multiscatter : Multiscatter::kRefit;
+  all.lobe_masking =
+      all.multiscatter == Multiscatter::kPublished || all.multiscatter == Multiscatter::kRefit;
+  all.planes = planesFor(all);
+  return all;
+}
+
 PlaneMask planesFor(const Scene& scene, const ShadingOptions& options) {
+  if (options.programs != Programs::kPerMaterial) return configForAll(scene, options, 1).planes;
   PlaneMask planes;
   for (const Material& material : scene.materials)
     planes = planes | configFor(material, scene, options, 1).planes;

@@ -15,7 +15,16 @@ PlaneMask planesFor(const KernelConfig& config);
 KernelConfig configFor(const Material& material, const Scene& scene, const ShadingOptions& options,
                        int lanes);
 
-/// Planes that any material of the scene reads.
+/// The same for one program that holds every effect, whether the scene calls for it or not, and
+/// branches on each pixel's material. What is a choice and no effect (light cones, methods, lobes,
+/// the model of multiple scattering, the NDF) is the scene's. Throws Error if materials differ in
+/// such a choice.
+KernelConfig configForAll(const Scene& scene, const ShadingOptions& options, int lanes);
+
+/// EFFECT_* bits of kernels/types.h that the material's kernel holds.
+uint effectBits(const KernelConfig& config);
+
+/// Planes that the programs of the frame read.
 PlaneMask planesFor(const Scene& scene, const ShadingOptions& options);
 
 }  // namespace glintmark

@@ -9,6 +9,7 @@
 
 #include "host/core/error.h"
 #include "host/core/stopwatch.h"
+#include "host/frame/all_materials.h"
 #include "host/frame/area_lights.h"
 #include "host/frame/effects.h"
 #include "host/frame/lights.h"
@@ -56,6 +57,7 @@ struct FrameRenderer::Impl {
     PixelPlanes planes;
     std::vector<Launch> launches;
     Buffer plane_buffer, radiance, counts;
+    Buffer owners;  // material of every entry, for programs that serve all materials
   };
 
   Impl(Device& device_, const Scene& scene_, const View& view, const ShadingOptions& options_,
@@ -72,6 +74,9 @@ struct FrameRenderer::Impl {
   void makeBands();
   void makeLights();
   void makeBuffers(Band& band, FrameTimes& times);
+  void rasterize(Band& band);
+  Launch makeLaunch(const Band& band, const PixelList& list);
+  void setMaterial(Launch& launch, const Material& material);
   void makeLaunches(Band& band);
   FrameTimes launchAll(const std::vector<KernelArg>& last_args);
   Image readPlanes(std::size_t first_plane, double& readback_ns) const;
@@ -92,6 +97,7 @@ struct FrameRenderer::Impl {
   std::vector<KernelConfig> configs;
   Buffer lights, taps;
   std::optional<AreaLightBuffers> area_lights;
+  std::optional<MaterialArrays> arrays;  // of a program for all materials
   uint light_count = 0;
   double build_ns = 0;
 };
@@ -138,44 +144,72 @@ void FrameRenderer::Impl::makeBuffers(Band& band, FrameTimes& times) {
   if (options.count_cells) band.counts = Buffer(device, planes.stride * 4, "the cell counts");
 }
 
+// Rasterizes into the planes' own memory, and puts them into the order that the programs want.
+void FrameRenderer::Impl::rasterize(Band& band) {
+  const PlaneMask mask = planesFor(scene, options);
+  rasterizer.render(scene.mesh, band.camera, scene.cull_back_faces, mask, band.planes);
+  if (options.programs == Programs::kPerMaterial) return;
+  std::vector<std::uint32_t> owners = entryOwners(band.planes);
+  if (options.programs == Programs::kFullScreen) band.planes = inScreenOrder(band.planes, owners);
+  band.owners = uploadItems(device, std::move(owners), "the materials of the pixels");
+}
+
+// The buffers of one material.
+void FrameRenderer::Impl::setMaterial(Launch& launch, const Material& material) {
+  launch.material = uploadItems(device, std::vector{material.glint}, "a material");
+  if (launch.config.normal_map) {
+    const NormalTexture& texture =
+        textures->get(material.normal_map->map, launch.config, options.mixture_order);
+    launch.map_layout = texture.layout;
+    launch.map_texels = texture.texels;
+  }
+  if (launch.config.multiscatter != Multiscatter::kOff || launch.config.metal_compensation)
+    launch.scatter = uploadItems(device, std::vector{prepareMultiscatter(material, launch.config)},
+                                 "a material's scattering");
+}
+
+FrameRenderer::Impl::Launch FrameRenderer::Impl::makeLaunch(const Band& band,
+                                                            const PixelList& list) {
+  const Material& material = scene.materials[list.material];
+  const bool for_all = options.programs != Programs::kPerMaterial;
+  Launch launch;
+  launch.list = list;
+  launch.config =
+      for_all ? configForAll(scene, options, lanes) : configFor(material, scene, options, lanes);
+  launch.config.planes = band.planes.mask;
+  const Program program = cache.get(options.truth ? "truth.cl" : "shade.cl", launch.config);
+  build_ns += program.buildNs();
+  launch.kernel = program.kernel(options.truth ? "truth" : "shade");
+  if (for_all) {
+    if (!arrays) arrays = uploadMaterialArrays(device, scene, options, launch.config, *textures);
+    launch.material = arrays->materials;
+    launch.scatter = arrays->scatter;
+    launch.map_layout = arrays->map_layouts;
+    launch.map_texels = arrays->map_texels;
+  } else {
+    setMaterial(launch, material);
+  }
+
+  FrameParams params{};
+  params.ray_origin = toFloat4(band.camera.ray_origin);
+  params.ray_dx = toFloat4(band.camera.ray_dx);
+  params.ray_dy = toFloat4(band.camera.ray_dy);
+  params.light_count = light_count;
+  params.list_offset = list.offset;
+  params.list_count = list.count;
+  params.plane_stride = static_cast<uint>(band.planes.stride);
+  area_lights->describe(launch.config, params);
+  launch.area_args = area_lights->arguments(launch.config);
+  launch.frame_params = uploadItems(device, std::vector{params}, "the frame's parameters");
+  return launch;
+}
+
 void FrameRenderer::Impl::makeLaunches(Band& band) {
   band.launches.clear();
   for (const PixelList& list : band.planes.lists) {
-    const Material& material = scene.materials[list.material];
-    Launch launch;
-    launch.list = list;
-    launch.config = configFor(material, scene, options, lanes);
-    launch.config.planes = band.planes.mask;
-    const Program program = cache.get(options.truth ? "truth.cl" : "shade.cl", launch.config);
-    build_ns += program.buildNs();
-    launch.kernel = program.kernel(options.truth ? "truth" : "shade");
-    if (launch.config.normal_map) {
-      const NormalTexture& texture =
-          textures->get(material.normal_map->map, launch.config, options.mixture_order);
-      launch.map_layout = texture.layout;
-      launch.map_texels = texture.texels;
-    }
-
-    if (launch.config.multiscatter != Multiscatter::kOff || launch.config.metal_compensation)
-      launch.scatter =
-          uploadItems(device, std::vector{prepareMultiscatter(material, launch.config)},
-                      "a material's scattering");
-
-    FrameParams params{};
-    params.ray_origin = toFloat4(band.camera.ray_origin);
-    params.ray_dx = toFloat4(band.camera.ray_dx);
-    params.ray_dy = toFloat4(band.camera.ray_dy);
-    params.light_count = light_count;
-    params.list_offset = list.offset;
-    params.list_count = list.count;
-    params.plane_stride = static_cast<uint>(band.planes.stride);
-    area_lights->describe(launch.config, params);
-    launch.area_args = area_lights->arguments(launch.config);
-    launch.frame_params = uploadItems(device, std::vector{params}, "the frame's parameters");
-    launch.material = uploadItems(device, std::vector{material.glint}, "a material");
-    if (std::ranges::find(configs, launch.config) == configs.end())
-      configs.push_back(launch.config);
-    band.launches.push_back(std::move(launch));
+    band.launches.push_back(makeLaunch(band, list));
+    const KernelConfig& config = band.launches.back().config;
+    if (std::ranges::find(configs, config) == configs.end()) configs.push_back(config);
   }
 }
 
@@ -189,6 +223,7 @@ std::vector<KernelArg> FrameRenderer::Impl::arguments(const Band& band,
   }
   if (!launch.scatter.empty()) args.emplace_back(launch.scatter);
   args.insert(args.end(), launch.area_args.begin(), launch.area_args.end());
+  if (launch.config.all_materials) args.emplace_back(band.owners);
   args.emplace_back(band.radiance);
   if (launch.config.count_cells) args.emplace_back(band.counts);
   return args;
@@ -222,11 +257,9 @@ FrameTimes FrameRenderer::prepare() {
   if (impl_->bands.empty()) impl_->makeBands();  // later calls reuse their memory
   impl_->makeLights();
   impl_->configs.clear();
-  const PlaneMask mask = planesFor(impl_->scene, impl_->options);
   for (Impl::Band& band : impl_->bands) {
     const Stopwatch watch;
-    impl_->rasterizer.render(impl_->scene.mesh, band.camera, impl_->scene.cull_back_faces, mask,
-                             band.planes);
+    impl_->rasterize(band);
     times.raster_ns += watch.elapsedNs();
     impl_->makeBuffers(band, times);
     impl_->makeLaunches(band);

@@ -15,6 +15,14 @@
 
 namespace glintmark {
 
+/// How a frame's materials become programs. The first is how scenes are shaded; the others are what
+/// it is compared with.
+enum class Programs {
+  kPerMaterial,  // one specialised program for each material, over its pixel list
+  kOneForAll,    // one program with every effect compiled in, over the same lists
+  kFullScreen,   // the same over all pixels in the order of the screen
+};
+
 /// What a user can choose about shading; the scene decides everything else.
 struct ShadingOptions {
   int width_px = 1920;
@@ -31,6 +39,7 @@ struct ShadingOptions {
   MixtureOrder mixture_order = MixtureOrder::kColours;
   LtcMethod ltc_method = LtcMethod::kExact;  // of materials with a normal map under area lights
   bool clipless = false;                     // area lights are not clipped to the horizon
+  Programs programs = Programs::kPerMaterial;
   bool truth = false;  // supersample instead of shading: addTruthSamples() in place of shade()
 };
 

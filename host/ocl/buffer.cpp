@@ -34,6 +34,8 @@ std::shared_ptr<Buffer::Impl> allocate(Device& device, std::size_t bytes, cl_mem
                     what, info.name, mebibytes(info.global_mem_bytes)),
         error);
   }
+  device.impl().ledger->add(what, bytes);
+  impl->ledger = device.impl().ledger;
   return impl;
 }
 

@@ -1,5 +1,7 @@
 // OpenCL devices: choosing one, its facts, its context and queue.
 #pragma once
+#include <cstddef>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -25,6 +27,17 @@ struct DeviceInfo {
 /// All devices of all platforms; empty if there is no OpenCL platform at all (never throws for it).
 std::vector<DeviceInfo> listDevices();
 
+/// Bytes of device buffers: held now, and at most at once since the peaks were last reset.
+struct BufferBytes {
+  std::size_t held = 0, peak = 0;
+};
+
+/// What was really allocated on a device, by purpose (the name that each buffer was made with).
+struct BufferUse {
+  std::map<std::string, BufferBytes> by_purpose;
+  BufferBytes total;
+};
+
 /// An opened device with context and profiling in-order queue. OpenCL types stay behind
 /// host/ocl/opencl.h, so this header does not include them.
 class Device {
@@ -37,6 +50,11 @@ class Device {
   Device& operator=(Device&&) noexcept;
 
   const DeviceInfo& info() const;
+
+  /// Buffers of this device, those that wrap host memory included. Safe from any thread.
+  BufferUse bufferUse() const;
+  /// Forgets what has been freed: peaks become what is held now.
+  void resetBufferPeaks();
 
   struct Impl;
   Impl& impl() { return *impl_; }  // for host/ocl only

@@ -44,13 +44,14 @@ void validate(const KernelConfig& config) {
 std::string buildOptions(const KernelConfig& config) {
   validate(config);
   std::string options = fmt::format(
-      "-D WIDTH={} -D GLINT={:d} -D GROOVE={:d} -D GLINT_COLOUR={:d} -D SIZE_VARIATION={:d} "
+      "-D WIDTH={} -D ALL_MATERIALS={:d} -D GLINT={:d} -D GROOVE={:d} -D GLINT_COLOUR={:d} -D "
+      "SIZE_VARIATION={:d} "
       "-D CONE_LIGHTS={:d} -D LIGHT_CONE={:d} -D DIFFUSE={:d} -D COUNT_CELLS={:d} -D "
       "GLINT_METHOD={} -D KA={} "
       "-D GGX={:d}",
-      config.width, config.glint, config.groove, config.glint_colour, config.size_variation,
-      config.cone_lights, config.light_cone, config.diffuse, config.count_cells,
-      static_cast<int>(config.method), config.ka, config.ggx);
+      config.width, config.all_materials, config.glint, config.groove, config.glint_colour,
+      config.size_variation, config.cone_lights, config.light_cone, config.diffuse,
+      config.count_cells, static_cast<int>(config.method), config.ka, config.ggx);
   options += fmt::format(
       " -D NORMAL_MAP={:d} -D NORMAL_METHOD={} -D LOBES={} -D ANISOTROPY={} -D HALF_TEXELS={:d} "
       "-D LTC={:d} -D LTC_METHOD={} -D LIGHT_VERTICES={} -D CLIPLESS={:d} -D LIGHT_TEXTURE={:d} -D "

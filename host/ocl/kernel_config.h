@@ -24,7 +24,8 @@ enum class Multiscatter : int { kOff, kPublished, kRefit, kEon };
 /// Keys the program cache (memory and disk) and is stored with every record. The meaning and range
 /// of each switch stand in kernels/config.clh.
 struct KernelConfig {
-  int width = 1;  // lanes W: 1, 4, 8 or 16
+  int width = 1;               // lanes W: 1, 4, 8 or 16
+  bool all_materials = false;  // one program that branches on each pixel's material
   bool glint = true;
   bool groove = false;
   bool glint_colour = false;

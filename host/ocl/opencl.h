@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <set>
 #include <string>
 #include <utility>
@@ -23,18 +24,36 @@ std::string openClErrorName(cl_int code);
 /// The project's error for a failed OpenCL call: "<doing> failed with <name> in <call>".
 Error openClError(const std::string& doing, const cl::Error& error);
 
+/// Counts the bytes of a device's buffers; outlives the device while buffers do.
+class BufferLedger {
+ public:
+  void add(const std::string& what, std::size_t bytes);
+  void remove(const std::string& what, std::size_t bytes);
+  BufferUse use() const;
+  void resetPeaks();
+
+ private:
+  mutable std::mutex mutex_;
+  BufferUse use_;
+};
+
 struct Device::Impl {
   DeviceInfo info;
   cl::Device device;
   cl::Context context;
   cl::CommandQueue queue;  // in order, profiling
+  std::shared_ptr<BufferLedger> ledger = std::make_shared<BufferLedger>();
 };
 
 struct Buffer::Impl {
+  ~Impl() {
+    if (ledger) ledger->remove(what, bytes);
+  }
   cl::Buffer buffer;
   cl::CommandQueue queue;
   std::size_t bytes = 0;
   std::string what;
+  std::shared_ptr<BufferLedger> ledger;  // set once the buffer is there
 };
 
 struct Kernel::Impl {

@@ -233,11 +233,29 @@ void addUnderbody(MeshBuilder& builder) {
       UvLayout::kArcLength);
 }
 
+/// Two walls in a corner behind the car, at x = -distance and z = -distance.
+void addWalls(MeshBuilder& builder, double distance, double length, double height) {
+  builder.addPatch(
+      builder.part("wall"), 16, 16,
+      [=](double s, double t) {
+        return SurfacePoint{{-distance, height * t, length * (0.5 - s)}};
+      },
+      UvLayout::kArcLength);
+  builder.addPatch(
+      builder.part("wall"), 16, 16,
+      [=](double s, double t) {
+        return SurfacePoint{{length * (s - 0.5), height * t, -distance}};
+      },
+      UvLayout::kArcLength);
+}
+
 }  // namespace
 
 MeshMaker readCar(SceneTable& mesh) {
   const double detail = mesh.number("detail", 1, {0.05, 4});
   const double floor_size = mesh.number("floor_size", 60, kPositive);
+  const double wall_distance = mesh.number("wall_distance", 0, kNotNegative);
+  const double wall_height = mesh.number("wall_height", 6, kPositive);
   return [=] {
     const auto steps = [detail](int n) {
       return std::max(4, static_cast<int>(std::lround(n * detail)));
@@ -263,6 +281,7 @@ MeshMaker readCar(SceneTable& mesh) {
           return SurfacePoint{{(s - 0.5) * floor_size, 0, (0.5 - t) * floor_size}};
         },
         UvLayout::kArcLength);
+    if (wall_distance > 0) addWalls(builder, wall_distance, floor_size, wall_height);
     // Grooves run along u: turned by 90 degrees, the charts have u across the car.
     PartMesh car = builder.finish();
     for (glm::dvec2& uv : car.mesh.uvs) uv = {uv.y, -uv.x};

@@ -9,7 +9,7 @@ namespace {
 
 TEST(KernelConfig, DefaultsWriteEverySwitch) {
   EXPECT_EQ(buildOptions({}),
-            "-D WIDTH=1 -D GLINT=1 -D GROOVE=0 -D GLINT_COLOUR=0 -D SIZE_VARIATION=1 "
+            "-D WIDTH=1 -D ALL_MATERIALS=0 -D GLINT=1 -D GROOVE=0 -D GLINT_COLOUR=0 -D SIZE_VARIATION=1 "
             "-D CONE_LIGHTS=1 -D LIGHT_CONE=0 -D DIFFUSE=0 -D COUNT_CELLS=0 -D GLINT_METHOD=0 -D "
             "KA=16 -D GGX=0 "
             "-D NORMAL_MAP=0 -D NORMAL_METHOD=0 -D LOBES=1 -D ANISOTROPY=1 -D HALF_TEXELS=0 "
@@ -21,6 +21,7 @@ TEST(KernelConfig, DefaultsWriteEverySwitch) {
 TEST(KernelConfig, EverySwitchShows) {
   KernelConfig config;
   config.width = 16;
+  config.all_materials = true;
   config.glint = false;
   config.groove = config.glint_colour = config.light_cone = config.diffuse = config.count_cells =
       true;
@@ -36,7 +37,7 @@ TEST(KernelConfig, EverySwitchShows) {
   config.light_vertices = 8;
   config.multiscatter = Multiscatter::kEon;
   EXPECT_EQ(buildOptions(config),
-            "-D WIDTH=16 -D GLINT=0 -D GROOVE=1 -D GLINT_COLOUR=1 -D SIZE_VARIATION=0 "
+            "-D WIDTH=16 -D ALL_MATERIALS=1 -D GLINT=0 -D GROOVE=1 -D GLINT_COLOUR=1 -D SIZE_VARIATION=0 "
             "-D CONE_LIGHTS=1 -D LIGHT_CONE=1 -D DIFFUSE=1 -D COUNT_CELLS=1 -D GLINT_METHOD=1 -D "
             "KA=64 -D GGX=1 "
             "-D NORMAL_MAP=1 -D NORMAL_METHOD=5 -D LOBES=8 -D ANISOTROPY=16 -D HALF_TEXELS=1 "
@@ -59,7 +60,7 @@ TEST(KernelConfig, PlanesBecomeTheirSlots) {
 
 TEST(KernelConfig, DifferentConfigsGiveDifferentOptions) {
   std::set<std::string> seen;
-  for (int bits = 0; bits < 1 << 14; ++bits) {
+  for (int bits = 0; bits < 1 << 15; ++bits) {
     KernelConfig config;
     config.glint = bits & 1;
     config.groove = bits & 2;
@@ -75,9 +76,10 @@ TEST(KernelConfig, DifferentConfigsGiveDifferentOptions) {
     config.clipless = bits & 2048;
     config.light_texture = bits & 4096;
     config.metal_compensation = bits & 8192;
+    config.all_materials = bits & 16384;
     seen.insert(buildOptions(config));
   }
-  EXPECT_EQ(seen.size(), std::size_t{1} << 14);
+  EXPECT_EQ(seen.size(), std::size_t{1} << 15);
 }
 
 TEST(KernelConfig, RangesAreChecked) {
