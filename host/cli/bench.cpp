@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "host/cli/bench_run.h"
+#include "host/cli/effects_bench.h"
 #include "host/cli/interrupt.h"
 #include "host/cli/msbrdf_bench.h"
 #include "host/cli/tan05_bench.h"
@@ -19,7 +20,7 @@ namespace {
 
 // In the order in which they are measured and printed.
 std::vector<BenchTable> allTables() {
-  return {zk16Bench(), tan05Bench(), tao21Bench(), msbrdfBench()};
+  return {zk16Bench(), tan05Bench(), tao21Bench(), msbrdfBench(), effectsBench()};
 }
 
 std::vector<std::string> namesOf(const std::vector<BenchTable>& tables) {

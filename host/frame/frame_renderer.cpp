@@ -42,6 +42,7 @@ struct FrameRenderer::Impl {
   struct Launch {
     PixelList list;
     KernelConfig config;
+    Program program;
     Kernel kernel;
     Buffer frame_params;
     Buffer material;
@@ -177,9 +178,9 @@ FrameRenderer::Impl::Launch FrameRenderer::Impl::makeLaunch(const Band& band,
   launch.config =
       for_all ? configForAll(scene, options, lanes) : configFor(material, scene, options, lanes);
   launch.config.planes = band.planes.mask;
-  const Program program = cache.get(options.truth ? "truth.cl" : "shade.cl", launch.config);
-  build_ns += program.buildNs();
-  launch.kernel = program.kernel(options.truth ? "truth" : "shade");
+  launch.program = cache.get(options.truth ? "truth.cl" : "shade.cl", launch.config);
+  build_ns += launch.program.buildNs();
+  launch.kernel = launch.program.kernel(options.truth ? "truth" : "shade");
   if (for_all) {
     if (!arrays) arrays = uploadMaterialArrays(device, scene, options, launch.config, *textures);
     launch.material = arrays->materials;
@@ -278,6 +279,7 @@ FrameTimes FrameRenderer::Impl::launchAll(const std::vector<KernelArg>& last_arg
       const LaunchTimes t = launch.kernel.launch(args, items, kLocalSize);
       times.shading_event_ns += t.event_ns;
       times.shading_wall_ns += t.wall_ns;
+      times.launch_event_ns.push_back(t.event_ns);
     }
   return times;
 }
@@ -381,6 +383,18 @@ double FrameRenderer::firstEnqueueNs() const {
   for (const Impl::Band& band : impl_->bands)
     for (const Impl::Launch& launch : band.launches) total += launch.kernel.firstEnqueueNs();
   return total;
+}
+
+std::vector<ProgramBuild> FrameRenderer::builds() const {
+  std::vector<ProgramBuild> builds;
+  for (const Impl::Band& band : impl_->bands)
+    for (const Impl::Launch& launch : band.launches) {
+      // Programs that were in memory took no time.
+      if (std::ranges::find(builds, launch.config, &ProgramBuild::config) != builds.end()) continue;
+      builds.push_back({launch.config, launch.program.buildNs(), launch.kernel.firstEnqueueNs(),
+                        launch.program.fromDiskCache()});
+    }
+  return builds;
 }
 
 std::size_t FrameRenderer::bufferBytes() const {

@@ -47,9 +47,18 @@ struct ShadingOptions {
 struct FrameTimes {
   double raster_ns = 0;
   double upload_ns = 0;
-  double shading_event_ns = 0;  // by the kernels' events
-  double shading_wall_ns = 0;   // enqueue to finish on the host's clock
+  double shading_event_ns = 0;            // by the kernels' events
+  double shading_wall_ns = 0;             // enqueue to finish on the host's clock
+  std::vector<double> launch_event_ns{};  // by launch: a band's pixel lists, then the next band's
   double readback_ns = 0;
+};
+
+/// Times of one program [ns].
+struct ProgramBuild {
+  KernelConfig config;
+  double build_ns = 0;          // clBuildProgram
+  double first_enqueue_ns = 0;  // first launches, in which PoCL compiles
+  bool from_disk_cache = false;
 };
 
 /// Cells visited, over the covered pixels of glint materials.
@@ -91,6 +100,8 @@ class FrameRenderer {
   /// Time spent in clBuildProgram and in each kernel's first enqueue, so far [ns].
   double buildNs() const;
   double firstEnqueueNs() const;
+  /// What it took to build each program in use, each once.
+  std::vector<ProgramBuild> builds() const;
   /// Bytes of device buffers held: planes, radiance, counts.
   std::size_t bufferBytes() const;
 
