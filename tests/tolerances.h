@@ -22,4 +22,8 @@ inline constexpr double kFlippedPixelShare = 2e-3;
 /// zk16 has no such threshold and agrees in every pixel.
 inline constexpr double kThresholdCountShare = 5e-3;
 
+/// Machine instructions by which two programs differ that only find their planes in other slots:
+/// constants of four address computations. The smallest effect (metal compensation) takes 20.
+inline constexpr double kPlaneSlotInstructions = 8;
+
 }  // namespace glintmark

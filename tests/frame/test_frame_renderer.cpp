@@ -1,6 +1,5 @@
 // FrameRenderer from a scene to images and counts.
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,27 +7,10 @@
 #include "host/core/error.h"
 #include "host/frame/effects.h"
 #include "host/frame/frame_renderer.h"
-#include "tests/frame/test_scenes.h"
+#include "tests/frame/frame_test.h"
 
 namespace glintmark {
 namespace {
-
-Device& device() {
-  static Device* const shared = [] {
-    setenv("GLINTMARK_CACHE_DIR", GLINTMARK_BINARY_DIR "/test_cache/programs", 1);
-    setenv("POCL_CACHE_DIR", GLINTMARK_BINARY_DIR "/test_cache/pocl", 1);
-    return new Device;  // lives as long as the program: drivers dislike late teardown
-  }();
-  return *shared;
-}
-
-ShadingOptions smallOptions() {
-  ShadingOptions options;
-  options.width_px = 160;
-  options.height_px = 90;
-  options.lanes = 16;
-  return options;
-}
 
 Image radianceOf(const Scene& scene, const View& view, const ShadingOptions& options) {
   FrameRenderer renderer(device(), scene, view, options, 2);
