@@ -19,7 +19,7 @@ EffectSet effectsOf(const Material& material) {
   if (material.normal_map) set = set | EffectSet{Effect::kNormals};
   if (material.diffuse_model != DiffuseModel::kLambert)
     set = set | EffectSet{Effect::kMultiscatter};
-  if (material.compensation) set = set | EffectSet{Effect::kCompensation};
+  if (material.compensation != Compensation::kOff) set = set | EffectSet{Effect::kCompensation};
   return set;
 }
 
@@ -29,7 +29,7 @@ void strip(Material& material, EffectSet kept) {
   if (!kept.has(Effect::kColour)) material.has_colour = false;
   if (!kept.has(Effect::kNormals)) material.normal_map.reset();
   if (!kept.has(Effect::kMultiscatter)) material.diffuse_model = DiffuseModel::kLambert;
-  if (!kept.has(Effect::kCompensation)) material.compensation = false;
+  if (!kept.has(Effect::kCompensation)) material.compensation = Compensation::kOff;
 }
 
 }  // namespace

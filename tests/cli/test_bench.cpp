@@ -121,5 +121,33 @@ TEST(Bench, DamagedLogIsAnErrorOnlyForResume) {
   EXPECT_EQ(fresh.exit_code, 0) << fresh.err;
 }
 
+TEST(Bench, EffectsOfOneSetResumedAfterAnInterrupt) {
+  const TempFolder folder;
+  const std::vector<std::string> arguments = {
+      "bench", "effects", "--quiet",         "--reps", "1",         "--size",
+      "64x36", "--set",   "mesh.detail=0.1", "-o",     folder / "r"};
+  Process process(arguments);
+  ASSERT_TRUE(waitForLines(folder / "r/records.jsonl", 2));
+  process.interrupt();
+  const ProcessResult interrupted = process.wait();
+  EXPECT_EQ(interrupted.exit_code, 130) << interrupted.err << interrupted.out;
+  EXPECT_NE(interrupted.err.find("of table effects are kept"), std::string::npos)
+      << interrupted.err;
+  const std::string kept = readTextFile(folder / "r/records.jsonl");
+  EXPECT_NE(kept.find("\"case\":\"none\""), std::string::npos);
+  for (const char* metric : {"shading_ms", "uber_over_specialised", "planes_bytes", "tables_bytes",
+                             "peak_bytes", "build_ms"})
+    EXPECT_NE(kept.find(metric), std::string::npos) << metric;
+  EXPECT_EQ(kept.find("\"valid\":false"), std::string::npos) << kept;
+
+  auto resume = arguments;
+  resume.push_back("--resume");
+  Process resumed(resume);
+  ASSERT_TRUE(waitForLines(folder / "r/records.jsonl", lineCount(folder / "r/records.jsonl") + 1));
+  resumed.interrupt();
+  resumed.wait();
+  EXPECT_TRUE(readTextFile(folder / "r/records.jsonl").starts_with(kept));
+}
+
 }  // namespace
 }  // namespace glintmark

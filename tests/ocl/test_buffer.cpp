@@ -114,5 +114,26 @@ TEST_F(BufferTest, WrappingNeedsAlignedMemory) {
             "planes has no bytes to wrap; at least one is needed");
 }
 
+TEST_F(BufferTest, DeviceKnowsWhatIsHeldAndWhatWas) {
+  EXPECT_EQ(device_.bufferUse().total.held, 0u);
+  Buffer words(device_, 4000, "words");
+  {
+    const Buffer more(device_, 400, "words"), other(device_, 40, "other");
+    const Buffer same = more;  // a second handle is no second buffer
+    EXPECT_EQ(device_.bufferUse().by_purpose.at("words").held, 4400u);
+    EXPECT_EQ(device_.bufferUse().total.held, 4440u);
+  }
+  const BufferUse use = device_.bufferUse();
+  EXPECT_EQ(use.by_purpose.at("words").held, 4000u);
+  EXPECT_EQ(use.by_purpose.at("words").peak, 4400u);
+  EXPECT_EQ(use.by_purpose.at("other").held, 0u);
+  EXPECT_EQ(use.total.peak, 4440u);
+  device_.resetBufferPeaks();
+  EXPECT_FALSE(device_.bufferUse().by_purpose.contains("other"));
+  EXPECT_EQ(device_.bufferUse().total.peak, 4000u);
+  EXPECT_THROW(Buffer(device_, device_.info().max_alloc_bytes + 1, "too much"), Error);
+  EXPECT_EQ(device_.bufferUse().total.held, 4000u);
+}
+
 }  // namespace
 }  // namespace glintmark

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "host/core/error.h"
+#include "host/report/effects_table.h"
 #include "host/report/msbrdf_table.h"
 #include "host/report/text_table.h"
 #include "host/report/zk16_table.h"
@@ -132,6 +133,46 @@ TEST(MsbrdfTable, FitsHundredColumnsAndMarksWhatIsNotValid) {
   EXPECT_NE(text.find("normalised cost 0.12!"), std::string::npos) << text;
   EXPECT_NE(text.find("alpha=0.24/theta=60"), std::string::npos);
   EXPECT_NE(text.find("about 500 ms"), std::string::npos);
+}
+
+// Records of a set of effects with `scale` times plausible values.
+std::vector<Record> effectsCase(const std::string& name, double scale) {
+  std::vector<Record> records;
+  for (const char* metric :
+       {"shading_ms", "uber_over_specialised", "full_screen_over_lists", "mixed_over_sum",
+        "mixed_over_sum_worst", "planes_bytes", "tables_bytes", "build_ms", "uber_build_ms"})
+    records.push_back(sampleRecord(name, metric, 1.2345 * scale));
+  return records;
+}
+
+TEST(EffectsTable, FitsHundredColumnsWithWholeNames) {
+  const std::string longest = "normals+ltc+multiscale+compensation";
+  for (const double scale : {1e-3, 1.0, 1e4}) {
+    std::vector<Record> records = effectsCase(longest, scale);
+    for (const Record& record : effectsCase("all", scale)) records.push_back(record);
+    const std::string text = effectsTableText(records);
+    EXPECT_LE(widestLine(text), 100u) << text;
+    EXPECT_NE(text.find(longest), std::string::npos) << text;
+  }
+}
+
+TEST(EffectsTable, SaysWhatItShows) {
+  std::vector<Record> records = {sampleRecord("none", "uber_over_specialised", 2.25),
+                                 sampleRecord("all", "uber_over_specialised", 1.5),
+                                 sampleRecord("all", "mixed_over_sum", 1.04)};
+  const std::string text = effectsTableText(records);
+  EXPECT_NE(text.find("takes 1.50 to 2.25 times as long"), std::string::npos) << text;
+  EXPECT_NE(text.find("cost 1.04 of the sum"), std::string::npos) << text;
+  EXPECT_EQ(effectsTableText({}).find("times as long"), std::string::npos);
+}
+
+TEST(EffectsTable, MatrixHasASquareForEveryPair) {
+  std::vector<Record> records;
+  for (const char* name : {"none", "glints", "ltc", "glints+ltc", "all"})
+    records.push_back(sampleRecord(name, "uber_over_specialised", 2));
+  const Image two = effectsMatrixPicture(records);
+  records.push_back(sampleRecord("environment", "uber_over_specialised", 2));
+  EXPECT_GT(effectsMatrixPicture(records).height, two.height);
 }
 
 }  // namespace

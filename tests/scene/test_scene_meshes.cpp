@@ -163,5 +163,22 @@ TEST(SceneMeshes, UvScaleMultiplies) {
   for (std::size_t v = 0; v < once.uvs.size(); ++v) EXPECT_EQ(twice.uvs[v], once.uvs[v] * 2.0);
 }
 
+TEST(CarMesh, WallsStandBehindTheCarAndFaceIt) {
+  const Scene scene = load("mixed");
+  const auto wall = std::ranges::find(scene.materials, "wall", &Material::name);
+  const auto index = static_cast<std::uint32_t>(wall - scene.materials.begin());
+  std::size_t triangles = 0;
+  for (std::size_t t = 0; t < scene.mesh.triangleCount(); ++t) {
+    if (scene.mesh.triangle_materials[t] != index) continue;
+    ++triangles;
+    for (int corner = 0; corner < 3; ++corner) {
+      const std::uint32_t v = scene.mesh.triangles[t][corner];
+      const glm::vec3 p = scene.mesh.positions[v], n = scene.mesh.normals[v];
+      EXPECT_NEAR(glm::dot(n, p), -3.2, 1e-5) << "distance to the car's middle";
+    }
+  }
+  EXPECT_EQ(triangles, 2u * 2u * 16u * 16u);
+}
+
 }  // namespace
 }  // namespace glintmark
