@@ -43,7 +43,7 @@ Scene mixedScene() {
   mapped.normal_map = NormalMapSource{
       std::make_shared<NormalMap>(generateNormalMap({.kind = "bumps", .size_px = 32})), 4};
   rough.diffuse_model = DiffuseModel::kRefit;
-  metal.compensation = true;
+  metal.compensation = Compensation::kLobe;
   scene.materials = {glints, grooves, mapped, rough, metal, smooth};
   const char* const names[] = {"glints", "grooves", "mapped", "rough", "metal", "smooth"};
   for (std::size_t i = 0; i < scene.materials.size(); ++i) scene.materials[i].name = names[i];
