@@ -146,7 +146,7 @@ const std::vector<std::pair<Effect, std::vector<std::string>>>& effectFunctions(
       {Effect::kNormals, {"filterNormals", "evaluateMappedLight", "evaluateLobe", "lobeFromM"}},
       {Effect::kLtc, {"shadeAreaLights", "lookUpLtc", "seeLight", "loadLitPoint"}},
       {Effect::kMultiscale, {"footprintAlpha", "fetchMeanNormal"}},
-      {Effect::kMultiscatter, {"addScattered", "scatterLight", "viewTerm"}},
+      {Effect::kMultiscatter, {"addScattered", "scatterLight", "scatterView"}},
       {Effect::kCompensation, {"compensate"}}};
   return functions;
 }
