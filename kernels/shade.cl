@@ -73,7 +73,7 @@ kernel void shade(global const uint* planes, constant const FrameParams* frame,
   const PixelCells pixel_cells = makePixelCells(&footprint, &cell_material);
 #endif
 #if NORMAL_MAP
-  const PixelNormals normals = loadNormals(planes, stride, entry, map, map_texels);
+  const PixelNormals normals = loadNormals(planes, stride, entry, map, map_texels, view, material);
 #endif
   for (uint i = 0; i < frame->light_count; ++i) {
     constant const LightParams* light = &lights[i];

@@ -14,9 +14,9 @@ kernel void probeLobe(global const float* in, global float* out, uint count, flo
   const vfloat4 moments = {IN(0), IN(1), IN(2), IN(3)};
   const vfloat3 light = {IN(4), IN(5), IN(6)}, view = {IN(7), IN(8), IN(9)};
 #undef IN
-  const NormalLobe lobe = lobeFromMoments(moments);
-  const LobeLight shaded =
-      evaluateLobe(lobe, lightGeometry(light, view), alpha, (vfloat)(alpha * alpha));
+  const NormalLobe lobe = liftedLobe(lobeFromMoments(moments));
+  const LobeShape shape = shapeLobe(lobe, view, (vfloat)(alpha * alpha));
+  const LobeLight shaded = evaluateShape(&shape, lightGeometry(light, view), alpha);
   storeFloat(lobe.weight, out, i);
   storeFloat(lobe.normal.x, out, count + i);
   storeFloat(lobe.normal.y, out, 2 * count + i);
