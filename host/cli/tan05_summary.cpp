@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -56,25 +57,31 @@ Samples ratioInTurn(FrameRenderer& first, FrameRenderer& second, int reps) {
   return ratio;
 }
 
-// Bytes of texels that the fetch asks for, mean over the covered pixels: four texels of one level
-// or eight of two, for every probe.
+// Bytes of texels that the fetch reads, mean over the covered pixels. The lanes of a work-item read
+// together: as many probes as the one that needs most, and two levels, eight texels, if one of them
+// blends two; what a lane does not need it reads with weight 0.
 double bytesPerPixel(const PixelPlanes& planes, const NormalMap& map, int most_probes,
-                     std::size_t texel_bytes) {
+                     std::size_t texel_bytes, std::uint32_t lanes) {
   const auto u = planes.plane(Plane::kUFrac), v = planes.plane(Plane::kVFrac);
   const auto dudx = planes.plane<float>(Plane::kDudx), dvdx = planes.plane<float>(Plane::kDvdx);
   const auto dudy = planes.plane<float>(Plane::kDudy), dvdy = planes.plane<float>(Plane::kDvdy);
   const int levels = mipLevelCount(map.width_px, map.height_px);
-  double bytes = 0, pixels = 0;
+  double texels = 0, pixels = 0;
   for (const PixelList& list : planes.lists)
-    for (std::uint32_t i = list.offset; i < list.offset + list.count; ++i) {
-      const reference::ProbeLine line = reference::footprintProbes(
-          map.width_px, map.height_px, levels, {u[i] * kFraction, v[i] * kFraction},
-          {{dudx[i], dvdx[i]}, {dudy[i], dvdy[i]}}, most_probes);
-      const int texels = line.level > std::floor(line.level) ? 8 : 4;
-      bytes += static_cast<double>(line.count) * texels * static_cast<double>(texel_bytes);
-      ++pixels;
+    for (std::uint32_t first = 0; first < list.count; first += lanes) {
+      const std::uint32_t count = std::min(lanes, list.count - first);
+      int probes = 1, texels_each = 4;
+      for (std::uint32_t i = list.offset + first; i < list.offset + first + count; ++i) {
+        const reference::ProbeLine line = reference::footprintProbes(
+            map.width_px, map.height_px, levels, {u[i] * kFraction, v[i] * kFraction},
+            {{dudx[i], dvdx[i]}, {dudy[i], dvdy[i]}}, most_probes);
+        probes = std::max(probes, line.count);
+        if (line.level > std::floor(line.level)) texels_each = 8;
+      }
+      texels += static_cast<double>(count) * probes * texels_each;
+      pixels += count;
     }
-  return pixels > 0 ? bytes / pixels : 0;
+  return pixels > 0 ? texels * static_cast<double>(texel_bytes) / pixels : 0;
 }
 
 struct Knob {
@@ -96,12 +103,13 @@ const NormalMap& firstMap(const Tan05Scene& scene) {
 }
 
 // The texel's bytes and probes of a mixture with these options.
-double mixtureBytes(const FrameRenderer& renderer, const Tan05Scene& scene,
+double mixtureBytes(const BenchRun& run, const FrameRenderer& renderer, const Tan05Scene& scene,
                     const ShadingOptions& options) {
   const int lobes =
       options.lobes > 0 ? options.lobes : scene.scene.materials.front().normal_map->lobes;
   return bytesPerPixel(renderer.planes(), firstMap(scene), options.anisotropy,
-                       static_cast<std::size_t>(lobes) * sizeof(float4));
+                       static_cast<std::size_t>(lobes) * sizeof(float4),
+                       static_cast<std::uint32_t>(run.info().width));
 }
 
 }  // namespace
@@ -142,7 +150,7 @@ std::vector<Record> measureTan05Knob(BenchRun& run, const Tan05Scene& scene,
   const double error = colourError(display(small->readRadiance()), display(truth.mean));
   return {tan05Record(run, case_name, "shading_ms", "ms", times_ms, "kernel events"),
           tan05Record(run, case_name, "bytes_per_px", "bytes",
-                      {mixtureBytes(*renderer, scene, full)}, "texels asked for"),
+                      {mixtureBytes(run, *renderer, scene, full)}, "texels read"),
           tan05Record(run, case_name, "colour_error", "1", {error}, "at 500x500")};
 }
 
@@ -183,7 +191,7 @@ std::vector<Record> measureTan05Summary(BenchRun& run, const Tan05Scene& scene) 
       record("speedup_vs_w1", "1", one_lane, "kernel events, in turn"),
       record("half_over_float", "1", ratioInTurn(*half, *gmm, reps), "kernel events, in turn"),
       record("fit_ms", "ms", {fitted.fit_ms}, "512x512, four lobes, not from the cache"),
-      record("bytes_per_px", "bytes", {mixtureBytes(*gmm, scene, options)}, "texels asked for")};
+      record("bytes_per_px", "bytes", {mixtureBytes(run, *gmm, scene, options)}, "texels read")};
   records[0].paper = 125.0 / 120;
   records[1].paper = 120.0 / 13;
   records[4].paper = kTan05FitMs;

@@ -139,5 +139,64 @@ TEST(Lobes, HardCasesStayFiniteAndNotNegative) {
         EXPECT_TRUE(std::isfinite(value) && value >= 0) << value;
 }
 
+// Four lobes in, what is left of them out: one pixel per group of sixteen lanes.
+struct Mixture {
+  int used = 0;
+  glm::vec4 lobes[4];  // weight, mean x, mean y, variance
+};
+
+Mixture probeMixture(const std::vector<glm::vec4>& moments, float alpha) {
+  constexpr std::size_t kLanes = 16;
+  std::vector<float> in(16 * kLanes), out(17 * kLanes);
+  for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t c = 0; c < 4; ++c)
+      for (std::size_t lane = 0; lane < kLanes; ++lane)
+        in[(4 * k + c) * kLanes + lane] = moments[k][static_cast<int>(c)];
+  Device& device = KernelBench::shared().device;
+  Buffer input(device, in.size() * 4, "moments"), output(device, out.size() * 4, "a mixture");
+  input.write(in.data(), in.size() * 4);
+  const std::vector<KernelArg> args = {input, output, static_cast<std::uint32_t>(kLanes), alpha};
+  gmmProbeKernel("lobe_probe.cl", "probeMixture",
+                 "-D WIDTH=16 -D DIFFUSE=1 -D NORMAL_MAP=1 -D NORMAL_METHOD=5 -D LOBES=4")
+      .launch(args, 1, 1);
+  output.read(out.data(), out.size() * 4);
+  Mixture mixture;
+  mixture.used = static_cast<int>(out[0]);
+  for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t c = 0; c < 4; ++c)
+      mixture.lobes[k][static_cast<int>(c)] = out[(4 * k + c + 1) * kLanes];
+  return mixture;
+}
+
+TEST(Mixtures, CloseLobesBecomeOneOfTheSameMeanAndVariance) {
+  const glm::vec2 means[] = {{0.11f, 0.2f}, {0.1f, 0.21f}, {0.09f, 0.19f}, {0.1f, 0.2f}};
+  const float weights[] = {0.4f, 0.3f, 0.2f, 0.1f}, variances[] = {1e-4f, 0, 2e-4f, 1e-4f};
+  std::vector<glm::vec4> moments;
+  glm::dvec4 sum(0);
+  for (int i = 0; i < 4; ++i) {
+    moments.push_back(momentsOf(weights[i], means[i], variances[i]));
+    sum += glm::dvec4(moments.back());
+  }
+  const Mixture merged = probeMixture(moments, 0.25f);
+  const reference::NormalLobe pooled = reference::lobeFromMoments(sum);
+  EXPECT_EQ(merged.used, 1);
+  EXPECT_NEAR(merged.lobes[0][0], 1, kMeanTolerance);
+  EXPECT_NEAR(merged.lobes[0][1], pooled.mean.x, kMeanTolerance);
+  EXPECT_NEAR(merged.lobes[0][2], pooled.mean.y, kMeanTolerance);
+  EXPECT_NEAR(merged.lobes[0][3], pooled.variance, kVarianceTolerance);
+  EXPECT_EQ(probeMixture(moments, 0.02f).used, 4) << "a smooth base lobe shows them apart";
+}
+
+TEST(Mixtures, LobesOfWeightZeroGoLastAndTheOthersKeepTheirOrder) {
+  const Mixture packed = probeMixture({momentsOf(0, {0, 0}, 0), momentsOf(0.7f, {0.5f, 0}, 0.01f),
+                                       momentsOf(0, {0, 0}, 0), momentsOf(0.3f, {-0.5f, 0.1f}, 0)},
+                                      0.1f);
+  EXPECT_EQ(packed.used, 2);
+  EXPECT_FLOAT_EQ(packed.lobes[0][0], 0.7f);
+  EXPECT_FLOAT_EQ(packed.lobes[1][0], 0.3f);
+  EXPECT_NEAR(packed.lobes[1][1], -0.5f, kMeanTolerance);
+  EXPECT_EQ(probeMixture(std::vector<glm::vec4>(4, glm::vec4(0)), 0.1f).used, 1) << "no lobe";
+}
+
 }  // namespace
 }  // namespace glintmark

@@ -205,7 +205,7 @@ TEST(Mixtures, AbsentNormalMapsLeaveNothingBehind) {
   config.normal_method = NormalMethod::kMip;
   config.lobes = 1;
   const std::string without = preprocessed(config);
-  for (const char* name : {"footprintProbes", "fetchTexels4", "lobeFromMoments", "evaluateLobe"}) {
+  for (const char* name : {"footprintProbes", "fetchTexels4", "lobeFromMoments", "evaluateShape"}) {
     EXPECT_NE(with.find(name), std::string::npos) << name << " was renamed";
     EXPECT_EQ(without.find(name), std::string::npos) << name;
   }
