@@ -66,14 +66,14 @@ kernel void packHeights(global const int* counts, global uint* heights) {
   const uint item = (uint)get_global_id(0);
   if (item >= HF_HEIGHT_WORDS) return;
   const uint row = item / HF_TILE % HF_TILE * HF_TILE, x = item % HF_TILE;
-  const uint here = (uint)counts[row + x] & 0xFFFFu;
-  heights[item] = here | ((uint)counts[row + (x + 1u) % HF_TILE] << 16);
+  const uint here = (uint)(counts[row + x] + 32768);
+  heights[item] = here | ((uint)(counts[row + (x + 1u) % HF_TILE] + 32768) << 16);
 }
 
 // tops: highest vertex of every block, its borders included, for both sides (below, the surface is
 // upside down); in rows of HF_TOP_PITCH that repeat what follows on either side. highest: of each
 // side, to be set to -HF_MOST_COUNTS before. One work-item per entry of a side.
-kernel void blockTops(global const int* counts, global int* tops, global int* highest) {
+kernel void blockTops(global const int* counts, global float* tops, global int* highest) {
   const uint item = (uint)get_global_id(0);
   if (item >= HF_TOP_WORDS) return;
   const uint block_x = (item % HF_TOP_PITCH + HF_BLOCKS - HF_CONE_REACH) % HF_BLOCKS;
@@ -87,39 +87,40 @@ kernel void blockTops(global const int* counts, global int* tops, global int* hi
       bottom = min(bottom, h);
     }
   }
-  tops[item] = top;
-  tops[HF_TOP_WORDS + item] = -bottom;
+  tops[item] = (float)top;
+  tops[HF_TOP_WORDS + item] = (float)-bottom;
   if (top > highest[0]) atomic_max(&highest[0], top);
   if (-bottom > highest[1]) atomic_max(&highest[1], -bottom);
 }
 
-// Cones. From a point over a block, at the height of the highest vertex of the 3 x 3 blocks around
-// it or above, rays that rise more steeply than the slope meet nothing. Blocks beyond the reach are
-// taken to be as high as the highest. inverse_gaps: for blocks dx, dy apart, index
-// |dy| (HF_CONE_REACH + 1) + |dx|, 1 / the distance between their squares [1 / blocks], 0 for
-// neighbours. One work-item per side and 16 blocks in a row.
-kernel void blockCones(global const int* tops, global const int* highest,
-                       global const float* inverse_gaps, global uint* cones) {
+// Cones. From a point over a block, at the height of the highest vertex of the blocks next to it or
+// above, rays of the octant that rise more steeply than the slope meet nothing. Blocks beyond the
+// reach are taken to be as high as the highest. reached: the blocks that rays of an octant can
+// come to, HF_REACHED of them for each: dx, dy, 1 / the distance between the squares [1 / blocks],
+// 0 for neighbours, which stand first. One work-item per side, octant and 16 blocks in a row.
+kernel void blockCones(global const float* tops, global const int* highest,
+                       global const float4* reached, global uint* cones) {
   const uint item = (uint)get_global_id(0) * 16u;
-  if (item >= 2u * HF_CONE_WORDS) return;
-  const uint side = item / HF_CONE_WORDS, block = item % HF_CONE_WORDS;
+  if (item >= 2u * HF_OCTANTS * HF_CONE_WORDS) return;
+  const uint map = item / HF_CONE_WORDS, block = item % HF_CONE_WORDS;
+  const uint side = map / HF_OCTANTS;
   const int x = (int)(block % HF_BLOCKS), y = (int)(block / HF_BLOCKS);
-  global const int* centre = tops + side * HF_TOP_WORDS + x + HF_CONE_REACH;
-  int16 top = -HF_MOST_COUNTS;
-  for (int dy = -1; dy <= 1; ++dy) {
-    global const int* row = centre + (uint)(y + dy) % HF_BLOCKS * HF_TOP_PITCH;
-    top = max(max(top, vload16(0, row)), max(vload16(0, row - 1), vload16(0, row + 1)));
-  }
+  global const float* centre = tops + side * HF_TOP_WORDS + x + HF_CONE_REACH;
+  global const float4* there = reached + map % HF_OCTANTS * HF_REACHED;
+  float16 top = -(float)HF_MOST_COUNTS;
+  uint i = 0;
+  for (; there[i].z == 0.0f; ++i)
+    top = max(top, vload16(0, centre + (uint)(y + (int)there[i].y) % HF_BLOCKS * HF_TOP_PITCH +
+                                  (int)there[i].x));
   // Slopes are counts per block here. What lies beyond the reach is at least as many blocks away.
-  float16 slope = convert_float16(highest[side] - top) * (1.0f / (float)HF_CONE_REACH);
-  for (int dy = -HF_CONE_REACH; dy <= HF_CONE_REACH; ++dy) {
-    global const int* row = centre + (uint)(y + dy) % HF_BLOCKS * HF_TOP_PITCH;
-    global const float* gaps = inverse_gaps + (uint)abs(dy) * (HF_CONE_REACH + 1);
-    for (int dx = -HF_CONE_REACH; dx <= HF_CONE_REACH; ++dx)
-      slope = max(slope, convert_float16(vload16(0, row + dx) - top) * gaps[abs(dx)]);
+  float16 slope = ((float)highest[side] - top) * (1.0f / (float)HF_CONE_REACH);
+  for (; i < HF_REACHED; ++i) {
+    const float4 b = there[i];
+    global const float* row = centre + (uint)(y + (int)b.y) % HF_BLOCKS * HF_TOP_PITCH;
+    slope = max(slope, (vload16(0, row + (int)b.x) - top) * b.z);
   }
   // The remainder covers rounding, here and in the kernel that reads it.
   slope = ceil(slope * (1.0001f / (float)(1u << HF_BLOCK_SHIFT))) + 1.0f;
   const uint16 bits = convert_uint16(min(slope, 65535.0f)) << 16;
-  vstore16(as_uint16(top & 0xFFFF) | bits, 0, cones + item);
+  vstore16(convert_uint16(top + 32768.0f) | bits, 0, cones + item);
 }

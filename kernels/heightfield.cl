@@ -41,14 +41,16 @@
 // One ray per lane.
 typedef struct {
   Ray ray;
-  vint side;     // +1 above the surface, -1 below
-  vint order;    // bounces so far
-  vint steps;    // cells of this flight
-  vuint random;  // the ray's sequence
-  vuint id;      // the ray's number in this launch
-  vint left;     // rays that the lane has still to start
-  vmask flying, met, out;  // at most one is true; none: the lane has no ray
-  vmask second;            // of a ray that met a face: it is its cell's second triangle
+  vint side;          // +1 above the surface, -1 below
+  vint order;         // bounces so far
+  vint steps;         // cells and jumps before this flight
+  vuint random;       // the ray's sequence
+  vuint id;           // the ray's number in this launch
+  vint left;          // rays that the lane has still to start
+  vmask alive;        // the lane has a ray,
+  vmask flying, met;  // which flies, has met a face, or, neither, leaves
+  int alive_count;
+  int steps_done;  // by the lanes together
 } Flight;
 
 // Direction in real space, unit.
@@ -62,15 +64,11 @@ WIDE vfloat3 realDirection(const Flight* f, constant const HeightfieldRun* run) 
 
 // Sets the direction of the lanes of `which` from real space.
 WIDE void setDirection(Flight* f, vfloat3 d, constant const HeightfieldRun* run, vmask which) {
-  Ray* r = &f->ray;
   vfloat dz = d.z * (1.0f / run->count_height);
 #if REFRACTION
   dz *= toFloat(f->side);
 #endif
-  r->dx = which ? d.x * run->alpha.x : r->dx;
-  r->dy = which ? d.y * run->alpha.y : r->dy;
-  r->dz = which ? dz : r->dz;
-  prepareFlight(r);
+  setFlight(&f->ray, d.x * run->alpha.x, d.y * run->alpha.y, dz, f->side, which);
 }
 
 // Writes how the rays of `which` end. The outcomes behind the last ray's are nobody's.
@@ -93,9 +91,12 @@ WIDE vint leavingWord(const Flight* f, constant const HeightfieldRun* run) {
          min(azimuth, (vint)((int)HF_AZIMUTHS - 1));
 }
 
-// Starts the next ray of the lanes of `which` that have one left.
-WIDE void startRays(Flight* f, global const uint* cones, constant const HeightfieldRun* run,
-                    uint seed, vmask which) {
+// The lanes of `which` take their next ray, or none if none is left; returns those that have one.
+// Its direction is still to be set. Rays come in from above the
+// highest height and would cross the mean plane anywhere in the tile, but those of neighbouring
+// numbers in one window of it, so that their flights share a small part of the maps.
+WIDE vmask startRays(Flight* f, constant const HeightfieldRun* run, uint seed, uint ray_count,
+                     vmask which) {
   Ray* r = &f->ray;
   const vmask starting = which & (f->left > 0);
   f->left -= starting ? (vint)(1) : (vint)(0);
@@ -104,36 +105,50 @@ WIDE void startRays(Flight* f, global const uint* cones, constant const Heightfi
   random = (random ^ (random >> 16)) * HASH_MIX_2;
   random = (random ^ (random >> 15)) * HASH_MIX_3;
   random ^= random >> 16;
-  const vfloat x = nextRandom(&random) * (float)HF_TILE, y = nextRandom(&random) * (float)HF_TILE;
-  const vint cell_x = toInt(x), cell_y = toInt(y);
+  const vint window =
+      toInt(toFloat(bitsToInt(f->id)) * ((float)(HF_WINDOWS * HF_WINDOWS) / (float)ray_count));
+  const float window_texels = (float)(HF_TILE / HF_WINDOWS);
+  vfloat x = (toFloat(window & (int)(HF_WINDOWS - 1)) + nextRandom(&random)) * window_texels;
+  vfloat y = (toFloat(window >> HF_WINDOW_SHIFT) + nextRandom(&random)) * window_texels;
+  const float descent = (float)HF_MOST_COUNTS * run->count_height / run->incoming.z;
+  x += descent * run->incoming.x * run->alpha.x;
+  y += descent * run->incoming.y * run->alpha.y;
+  const vfloat cell_x = floor(x), cell_y = floor(y);
   f->random = starting ? random : f->random;
-  r->x = starting ? cell_x : r->x;
-  r->y = starting ? cell_y : r->y;
-  r->u = starting ? x - toFloat(cell_x) : r->u;
-  r->v = starting ? y - toFloat(cell_y) : r->v;
+  r->x = starting ? toInt(cell_x) & TILE_MASK : r->x;
+  r->y = starting ? toInt(cell_y) & TILE_MASK : r->y;
+  r->u = starting ? x - cell_x : r->u;
+  r->v = starting ? y - cell_y : r->v;
   r->z = starting ? (vfloat)((float)HF_MOST_COUNTS) : r->z;
   f->side = starting ? (vint)(1) : f->side;
   f->order = starting ? (vint)(0) : f->order;
-  f->steps = starting ? (vint)(0) : f->steps;
-  setDirection(f, broadcast3(run->incoming), run, starting);
-  jumpAhead(cones, r, f->side, starting);
-  f->flying = f->flying | starting;
+  f->alive = (f->alive & !which) | starting;
+  return starting;
+}
+
+// Sends the lanes of `which` off in a direction of real space; their rays are on or above the
+// surface.
+WIDE void takeOff(Flight* f, global const uint* cones, vfloat3 direction,
+                  constant const HeightfieldRun* run, vmask which) {
+  setDirection(f, direction, run, which);
+  const vmask out = jumpAhead(cones, &f->ray, which);
+  f->met = f->met & !which;
+  f->flying = (f->flying & !which) | (which & !out);
+  f->steps = which ? (vint)(f->steps_done) : f->steps;
 }
 
 // One cell and one jump of the flying lanes.
 WIDE void fly(Flight* f, global const uint* heights, global const uint* cones) {
   const CellFaces faces = cellFaces(heights, &f->ray, f->side);
   const CellCrossing crossing = crossCell(&f->ray);
-  const vmask first = meetsFirst(&f->ray, &faces, &crossing) & f->flying;
-  const vmask second = meetsSecond(&f->ray, &faces, &crossing) & f->flying & !first;
-  f->met = f->met | first | second;
-  f->second = (f->second & !first) | second;
-  f->flying = f->flying & !(first | second);
+  const vmask hit =
+      (meetsFirst(&f->ray, &faces, &crossing) | meetsSecond(&f->ray, &faces, &crossing)) &
+      f->flying;
+  f->met = f->met | hit;
+  f->flying = f->flying & !hit;
   enterNextCell(&f->ray, &crossing, f->flying);
-  const vmask out = jumpAhead(cones, &f->ray, f->side, f->flying);
-  f->out = f->out | out;
-  f->flying = f->flying & !out;
-  f->steps += 1;
+  f->flying = f->flying & !jumpAhead(cones, &f->ray, f->flying);
+  f->steps_done += 1;
 }
 
 // Flight of the lanes of `which` up to the face that they met; returns its normal, unit, on their
@@ -143,10 +158,11 @@ WIDE vfloat3 land(Flight* f, global const uint* heights, constant const Heightfi
   Ray* r = &f->ray;
   const CellFaces faces = cellFaces(heights, r, f->side);
   const CellCrossing crossing = crossCell(r);
-  const vfloat slope_u = f->second ? faces.second_u : faces.first_u;
-  const vfloat slope_v = f->second ? faces.second_v : faces.first_v;
-  const vfloat begin = f->second ? crossing.first_end : (vfloat)(0.0f);
-  const vfloat end = f->second ? crossing.end : crossing.first_end;
+  const vmask first = meetsFirst(r, &faces, &crossing);
+  const vfloat slope_u = first ? faces.first_u : faces.second_u;
+  const vfloat slope_v = first ? faces.first_v : faces.second_v;
+  const vfloat begin = first ? (vfloat)(0.0f) : crossing.first_end;
+  const vfloat end = first ? crossing.first_end : crossing.end;
   const vfloat rate = min(clearanceRate(r, slope_u, slope_v), (vfloat)(-1e-30f));
   const vfloat flight =
       clamp(clearance(r, faces.height, slope_u, slope_v) * wideReciprocal(-rate), begin, end);
@@ -160,18 +176,18 @@ WIDE vfloat3 land(Flight* f, global const uint* heights, constant const Heightfi
   return normalize3(n);
 }
 
-// Bounces the lanes of `which` off the face that they met, or into it. Returns the lanes whose rays
-// end here and their histogram words.
+// Bounces the lanes of `which` off the face that they met, or into it: *after is their new
+// direction in real space. Returns the lanes whose rays end here and their histogram words.
 WIDE vmask bounce(Flight* f, global const uint* heights, constant const HeightfieldRun* run,
-                  vmask which, vint* word) {
+                  vmask which, vint* word, vfloat3* after) {
   const vfloat3 n = land(f, heights, run, which);
   vuint random = f->random;
   vmask ended = (vint)(0);
 #if SURFACE_KIND == 0
-  const vfloat3 after = scatterDiffuse(n, &random);
+  *after = scatterDiffuse(n, &random);
 #elif SURFACE_KIND == 1
   const vfloat3 before = realDirection(f, run);
-  const vfloat3 after = mirror(before, n);
+  *after = mirror(before, n);
   const vfloat cosine = clamp(-dot3(before, n), (vfloat)(0.0f), (vfloat)(1.0f));
   const vfloat reflectance = fresnelMetal(cosine, run->index_n, run->index_k);
   ended = which & (nextRandom(&random) >= reflectance);
@@ -180,25 +196,13 @@ WIDE vmask bounce(Flight* f, global const uint* heights, constant const Heightfi
   const vfloat3 before = realDirection(f, run);
   const vfloat ratio = f->side > 0 ? (vfloat)(run->index_n) : (vfloat)(1.0f / run->index_n);
   vmask refracted;
-  const vfloat3 after = scatterDielectric(before, n, ratio, &random, &refracted);
+  *after = scatterDielectric(before, n, ratio, &random, &refracted);
   refracted = refracted & which;
   f->side = refracted ? -f->side : f->side;
   f->ray.z = refracted ? -f->ray.z : f->ray.z;
 #endif
   f->random = which ? random : f->random;
-  setDirection(f, after, run, which);
   f->order += which ? (vint)(1) : (vint)(0);
-  f->steps = which ? (vint)(0) : f->steps;
-  f->met = f->met & !which;
-  f->flying = f->flying | (which & !ended);
-#if LAST_BOUNCE_LEAVES
-  const vmask last = f->flying & which & (f->order >= (int)run->orders);
-  const vmask back = last & (f->ray.dz <= 0.0f);
-  *word = back ? (vint)((int)HF_LEFT_OVER) : *word;
-  ended = ended | back;
-  f->out = f->out | (last & !back);
-  f->flying = f->flying & !last;
-#endif
   return ended;
 }
 
@@ -206,26 +210,39 @@ WIDE vmask bounce(Flight* f, global const uint* heights, constant const Heightfi
 WIDE void serve(Flight* f, global const uint* heights, global const uint* cones,
                 constant const HeightfieldRun* run, uint seed, uint ray_count,
                 global uint* outcomes) {
-  vint word = (vint)((int)HF_GAVE_UP);
-  vmask ended = f->flying & (f->steps > HF_MOST_STEPS);
+  const vmask out = f->alive & !(f->flying | f->met);
+  const vmask stuck = f->flying & ((vint)(f->steps_done) - f->steps > HF_MOST_STEPS);
   const vmask spent = f->met & (f->order >= (int)run->orders);
+  vint word = stuck ? (vint)((int)HF_GAVE_UP) : leavingWord(f, run);
   word = spent ? (vint)((int)HF_LEFT_OVER) : word;
-  ended = ended | spent;
-  f->flying = f->flying & !ended;
-  f->met = f->met & !ended;
-  if (anyLane(f->met)) {
+  vmask ended = out | stuck | spent;
+  vmask bouncing = f->met & !spent;
+  vfloat3 direction = broadcast3(run->incoming);
+  if (anyLane(bouncing)) {
+    vfloat3 after;
     vint end_word = (vint)(0);
-    const vmask here = bounce(f, heights, run, f->met, &end_word);
+    const vmask here = bounce(f, heights, run, bouncing, &end_word, &after);
     word = here ? end_word : word;
     ended = ended | here;
+    bouncing = bouncing & !here;
+#if LAST_BOUNCE_LEAVES
+    const vmask last = bouncing & (f->order >= (int)run->orders);
+    setDirection(f, after, run, last);
+    word = last ? leavingWord(f, run) : word;
+    word = last & (f->ray.dz <= 0.0f) ? (vint)((int)HF_LEFT_OVER) : word;
+    ended = ended | last;
+    bouncing = bouncing & !last;
+#endif
+    direction.x = bouncing ? after.x : direction.x;
+    direction.y = bouncing ? after.y : direction.y;
+    direction.z = bouncing ? after.z : direction.z;
   }
-  word = f->out ? leavingWord(f, run) : word;
-  ended = ended | f->out;
-  f->out = (vint)(0);
-  if (anyLane(ended)) {
-    finish(f, outcomes, ray_count, word, ended);
-    startRays(f, cones, run, seed, ended);
-  }
+  if (anyLane(ended)) finish(f, outcomes, ray_count, word, ended);
+  const vmask starting = startRays(f, run, seed, ray_count, ended);
+  takeOff(f, cones, direction, run, starting | bouncing);
+  f->flying = f->flying & f->alive;
+  f->met = f->met & f->alive;
+  f->alive_count = countLanes(f->alive);
 }
 
 // A lane's first ray has number `first` + its number; the next ones follow in steps of all lanes.
@@ -236,10 +253,12 @@ WIDE Flight makeFlight(constant const HeightfieldRun* run, uint first, uint ray_
   f.left = id < ray_count ? bitsToInt((ray_count - 1u - id) / (uint)(WIDTH * GROUPS)) + 1 : none;
   f.left = min(f.left, (vint)((int)run->rays_per_lane));
   f.id = id - (uint)(WIDTH * GROUPS);
-  f.flying = f.met = f.out = f.second = f.order = f.steps = f.side = none;
+  f.alive = f.flying = f.met = f.order = f.steps = f.side = none;
+  f.steps_done = f.alive_count = 0;
   f.random = (vuint)(0u);
   f.ray.x = f.ray.y = none;
-  f.ray.u = f.ray.v = f.ray.z = f.ray.dx = f.ray.dy = f.ray.dz = (vfloat)(0.0f);
+  f.ray.u = f.ray.v = f.ray.z = (vfloat)(0.0f);
+  setFlight(&f.ray, f.ray.u, f.ray.v, f.ray.z, f.side, !none);
   return f;
 }
 
@@ -251,30 +270,35 @@ kernel void traceRays(global const uint* heights, global const uint* cones,
                       global uint* outcomes) {
   const uint item_rays = (uint)(WIDTH * GROUPS) * run->rays_per_lane;
   Flight flights[GROUPS];
+  int busy = 0;
   for (uint g = 0; g < GROUPS; ++g) {
     const uint first = (uint)get_global_id(0) * item_rays + g * (uint)WIDTH;
     flights[g] = makeFlight(run, first, ray_count);
-    startRays(&flights[g], cones, run, seed, flights[g].left > 0);
+    const vmask starting = startRays(&flights[g], run, seed, ray_count, !(vint)(0));
+    takeOff(&flights[g], cones, broadcast3(run->incoming), run, starting);
+    flights[g].alive_count = countLanes(flights[g].alive);
+    busy |= flights[g].alive_count;
   }
-  int busy = 1;
   while (busy) {
-    int stop, flying;
+    int ready[GROUPS], stop;
     do {
-      stop = flying = 0;
+      stop = 0;
       for (uint g = 0; g < GROUPS; ++g) {
         Flight* f = &flights[g];
         fly(f, heights, cones);
-        const vmask stuck = f->flying & (f->steps > HF_MOST_STEPS);
-        stop |= countLanes(f->met | f->out | stuck) >= SOME_WAIT;
-        // Too few stuck lanes to be served must not fly on for ever.
-        flying |= anyLane(f->flying & !stuck);
+        const int flying = countLanes(f->flying);
+        // Now and then in any case, so that rays that are stuck are found.
+        ready[g] =
+            (f->alive_count - flying >= SOME_WAIT) | (flying == 0) | ((f->steps_done & 1023) == 0);
+        ready[g] &= f->alive_count > 0;
+        stop |= ready[g];
       }
-    } while (!stop && flying);
+    } while (!stop);
     busy = 0;
     for (uint g = 0; g < GROUPS; ++g) {
       Flight* f = &flights[g];
-      serve(f, heights, cones, run, seed, ray_count, outcomes);
-      busy |= anyLane(f->flying);
+      if (ready[g]) serve(f, heights, cones, run, seed, ray_count, outcomes);
+      busy |= f->alive_count;
     }
   }
 }

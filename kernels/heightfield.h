@@ -13,21 +13,30 @@
 #define HF_MODES 64u                           // wave numbers 0 to 63 along x, -63 to 63 along y
 #define HF_MODE_ROWS (2u * HF_MODES - 1u)
 
+// Parts per side of the tile that rays of neighbouring numbers aim at.
+#define HF_WINDOW_SHIFT 3
+#define HF_WINDOWS (1 << HF_WINDOW_SHIFT)
+
 // Words of the height buffer: one row more than the tile has, so that the row above needs no
 // wrapping. A word holds the heights of texel (x, y) and, in its upper half, of (x + 1, y), as
-// signed 16-bit counts.
+// counts with 32768 added.
 #define HF_HEIGHT_WORDS ((HF_TILE + 1u) * HF_TILE)
 #define HF_MOST_COUNTS 32767
 
-// Words of one side's cone map: highest count of a block in the lower half, and in the upper half
-// the slope [counts per texel] of a cone from there that clears everything else.
-#define HF_CONE_WORDS (HF_BLOCKS * HF_BLOCKS)
+// The cone maps: for each side and octant of directions a word per block; dx < 0, dy < 0 and
+// |dy| > |dx| are the bits of the octant's number. Lower half: highest count of the block and its
+// neighbours in that octant, with 32768 added. Upper half: slope [counts per texel] of a cone from
+// there that clears what lies beyond.
+#define HF_OCTANTS 8u
+#define HF_CONE_WORDS (HF_BLOCKS * HF_BLOCKS)  // of one map
 
 // Heights of blocks while the map is made: rows with as many repeated blocks on either side as a
 // cone is searched for.
 #define HF_CONE_REACH 12
 #define HF_TOP_PITCH (HF_BLOCKS + 2u * HF_CONE_REACH)
 #define HF_TOP_WORDS (HF_BLOCKS * HF_TOP_PITCH)
+// Blocks dx, dy apart that rays of the first octant reach: dx to HF_CONE_REACH, dy to dx + 1.
+#define HF_REACHED ((HF_CONE_REACH + 1) * (HF_CONE_REACH + 4) / 2 - 1)
 
 // The histogram: cells of equal solid angle, for each side (above, then below), scattering order
 // and cosine the azimuths from +x on. Behind them, counters.

@@ -153,12 +153,13 @@ int runSimulate(const CommandLine& line, const SimulateOptions& options) {
   if (simulation.rays_done > before) {
     const SlopeMoments m =
         slopeMoments(simulator.surface().readCounts(), simulator.surface().countHeight());
+    const glm::dvec2 nominal = 0.5 * settings.alpha * settings.alpha;
     const double seconds = (simulator.traceNs() + simulator.surfaceNs()) * 1e-9;
     fmt::print(
-        "roughness {:.4f} x {:.4f} nominal, {:.4f} x {:.4f} effective in the last surface\n"
-        "{:.2f} s, {:.2f} million rays per second\n",
-        settings.alpha.x, settings.alpha.y, settings.alpha.x * std::sqrt(2 * m.variance_x),
-        settings.alpha.y * std::sqrt(2 * m.variance_y), seconds,
+        "slope variance along x and y: {:.6f} and {:.6f} nominal, {:.6f} and {:.6f} effective in "
+        "the "
+        "last surface\n{:.2f} s, {:.2f} million rays per second\n",
+        nominal.x, nominal.y, 2 * nominal.x * m.variance_x, 2 * nominal.y * m.variance_y, seconds,
         static_cast<double>(simulation.rays_done - before) / seconds * 1e-6);
   }
   if (simulation.gaveUp() > 0)

@@ -40,6 +40,32 @@ void drawDisc(Image& image, int left, int top, const LobeDisc& disc) {
     }
 }
 
+// Mixes half of the ink into a pixel.
+void dot(Image& image, int x, int y, const DisplayColour& ink) {
+  float* pixel = image.at(x, y).data();
+  for (std::size_t c = 0; c < 3; ++c) pixel[c] = (pixel[c] + ink[c]) / 2;
+}
+
+void drawCompass(Image& image, int left, int top, const LobeDisc& disc) {
+  constexpr DisplayColour kWhite = {1, 1, 1};
+  const int centre_x = left + kRadius_px, centre_y = top + kRadius_px;
+  for (const double angle_deg : {30.0, 60.0}) {
+    const double radius = kRadius_px * std::sqrt(1 - std::cos(angle_deg * std::numbers::pi / 180));
+    for (int i = 0; i < 180; ++i) {  // dotted
+      const double turn = 2 * std::numbers::pi * i / 180;
+      dot(image, centre_x + static_cast<int>(std::lround(radius * std::cos(turn))),
+          centre_y + static_cast<int>(std::lround(radius * std::sin(turn))), kWhite);
+    }
+  }
+  const double radius = kRadius_px * std::sqrt(1 - disc.light_cosine);
+  const int x = centre_x + static_cast<int>(std::lround(radius * std::cos(disc.light_azimuth)));
+  const int y = centre_y - static_cast<int>(std::lround(radius * std::sin(disc.light_azimuth)));
+  fillRect(image, x - 5, y - 1, 11, 3, kInk);
+  fillRect(image, x - 1, y - 5, 3, 11, kInk);
+  fillRect(image, x - 4, y, 9, 1, kWhite);
+  fillRect(image, x, y - 4, 1, 9, kWhite);
+}
+
 }  // namespace
 
 Image lobePicture(const std::vector<LobeDisc>& discs, int columns) {
@@ -53,28 +79,12 @@ Image lobePicture(const std::vector<LobeDisc>& discs, int columns) {
     const std::string& caption = discs[static_cast<std::size_t>(i)].caption;
     drawText(image, left + (kTile_px - textWidth(caption, 1)) / 2, top + kTile_px, caption, 1,
              kInk);
+    const LobeDisc& disc = discs[static_cast<std::size_t>(i)];
+    drawText(image, left + (kTile_px - textWidth(disc.note, 1)) / 2, top + kTile_px + 10, disc.note,
+             1, kInk);
+    if (disc.compass) drawCompass(image, left + kMargin_px, top + kMargin_px, disc);
   }
   return image;
-}
-
-Image histogramPicture(const Simulation& simulation) {
-  std::vector<LobeDisc> discs;
-  const int sides = simulation.settings.kind == SurfaceKind::kDielectric ? 2 : 1;
-  for (int side = 0; side < sides; ++side)
-    for (int order = 1; order <= simulation.settings.orders; ++order)
-      discs.push_back(
-          {fmt::format("order {}{}: {:.4f}", order, side == 0 ? "" : " below",
-                       static_cast<double>(simulation.left(side, order)) /
-                           static_cast<double>(std::max<std::uint64_t>(simulation.rays_done, 1))),
-           [&simulation, side, order](double cosine, double azimuth) {
-             const auto row = static_cast<std::size_t>((1 - cosine) * HF_COSINES);
-             const auto column =
-                 static_cast<std::size_t>(azimuth / (2 * std::numbers::pi) * HF_AZIMUTHS);
-             return static_cast<double>(
-                 simulation.cell(side, order, std::min<std::size_t>(row, HF_COSINES - 1),
-                                 std::min<std::size_t>(column, HF_AZIMUTHS - 1)));
-           }});
-  return lobePicture(discs, simulation.settings.orders);
 }
 
 }  // namespace glintmark

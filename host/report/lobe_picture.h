@@ -13,14 +13,19 @@ namespace glintmark {
 struct LobeDisc {
   std::string caption;
   std::function<double(double cosine, double azimuth)> value;
-  double most = 0;  // value of the brightest colour; 0: the greatest there is
+  double most = 0;     // value of the brightest colour; 0: the greatest there is
+  std::string note{};  // a second line below
+  bool compass =
+      false;  // rings at 30 and 60 degrees from the normal, and a cross for the light at:
+  double light_cosine = 1, light_azimuth = 0;
 };
 
 /// Discs in rows of `columns`, areas in proportion to solid angles, +x to the right, in false
 /// colours from 0 on, captions below.
 Image lobePicture(const std::vector<LobeDisc>& discs, int columns);
 
-/// One disc per order and side, each scaled to its own greatest cell.
+/// A legend and one disc per order and side: energy per solid angle, in cells so wide that the
+/// brightest has 200 rays where there are as many, each disc scaled to its own brightest cell.
 Image histogramPicture(const Simulation& simulation);
 
 }  // namespace glintmark

@@ -154,7 +154,7 @@ void Simulator::advance(Simulation& simulation) {
   if (simulation.rays_done >= settings.rays) return;
   const std::uint32_t seed = launchSeed(settings.seed, simulation.rays_done / kRaysPerSurface);
   const std::uint64_t rays = std::min(kRaysPerSurface, settings.rays - simulation.rays_done);
-  surface_ns_ += surface_->draw(seed);
+  surface_ns_ += surface_->draw(seed, settings.kind == SurfaceKind::kDielectric);
   const KernelArg args[] = {surface_->heights(),
                             surface_->cones(),
                             run_,

@@ -1,6 +1,7 @@
 #include "host/simulate/surface.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -30,13 +31,26 @@ std::vector<float> waveTable(double (*function)(double)) {
   return table;
 }
 
-// One over the distance between the squares of two blocks, 0 for neighbours.
-std::vector<float> inverseGaps() {
+// For every octant the blocks that rays of it reach: dx, dy, one over the distance between the
+// squares (0 for neighbours, which come first), unused.
+std::vector<float> reachedBlocks() {
+  std::vector<std::array<int, 2>> first;  // octant: dx >= dy >= 0
+  for (int dx = 0; dx <= HF_CONE_REACH; ++dx)
+    for (int dy = 0; dy <= std::min(dx + 1, HF_CONE_REACH); ++dy) first.push_back({dx, dy});
+  const auto gap = [](const std::array<int, 2>& block) {
+    return std::hypot(std::max(block[0] - 1, 0), std::max(block[1] - 1, 0));
+  };
+  std::stable_partition(first.begin(), first.end(),
+                        [&](const auto& block) { return gap(block) == 0; });
   std::vector<float> table;
-  for (int dy = 0; dy <= HF_CONE_REACH; ++dy)
-    for (int dx = 0; dx <= HF_CONE_REACH; ++dx) {
-      const double gap = std::hypot(std::max(dx - 1, 0), std::max(dy - 1, 0));
-      table.push_back(gap > 0 ? static_cast<float>(1 / gap) : 0.0f);
+  for (unsigned octant = 0; octant < HF_OCTANTS; ++octant)
+    for (const std::array<int, 2>& block : first) {
+      const bool steep = (octant & 4) != 0;
+      const int x = block[steep ? 1 : 0], y = block[steep ? 0 : 1];
+      const double distance = gap(block);
+      table.insert(table.end(), {static_cast<float>(octant & 1 ? -x : x),
+                                 static_cast<float>(octant & 2 ? -y : y),
+                                 distance > 0 ? static_cast<float>(1 / distance) : 0.0f, 0.0f});
     }
   return table;
 }
@@ -65,11 +79,11 @@ SurfaceMaker::SurfaceMaker(Device& device, ProgramCache& cache, double correlati
   heights_ = words(HF_HEIGHT_WORDS, "the surface's packed heights");
   tops_ = words(std::size_t{2} * HF_TOP_WORDS, "the surface's block tops");
   highest_ = words(2, "the surface's extremes");
-  inverse_gaps_ = upload(device, inverseGaps(), "distances between blocks");
-  cones_ = words(std::size_t{2} * HF_CONE_WORDS, "the surface's cones");
+  reached_ = upload(device, reachedBlocks(), "blocks that an octant reaches");
+  cones_ = words(std::size_t{2} * HF_OCTANTS * HF_CONE_WORDS, "the surface's cones");
 }
 
-double SurfaceMaker::draw(std::uint32_t seed) {
+double SurfaceMaker::draw(std::uint32_t seed, bool both_sides) {
   double ns = 0;
   const auto launch = [&](Kernel& kernel, std::vector<KernelArg> args, std::size_t items) {
     ns += kernel.launch(args, items, kLocalSize).wall_ns;
@@ -82,8 +96,8 @@ double SurfaceMaker::draw(std::uint32_t seed) {
   const std::int32_t lowest[2] = {-HF_MOST_COUNTS, -HF_MOST_COUNTS};
   highest_.write(lowest, sizeof lowest);
   launch(block_tops_, {counts_, tops_, highest_}, HF_TOP_WORDS);
-  launch(block_cones_, {tops_, highest_, inverse_gaps_, cones_},
-         std::size_t{2} * HF_CONE_WORDS / 16);
+  launch(block_cones_, {tops_, highest_, reached_, cones_},
+         std::size_t{both_sides ? 2u : 1u} * HF_OCTANTS * HF_CONE_WORDS / 16);
   return ns;
 }
 

@@ -1,0 +1,106 @@
+// simulate: what it prints and writes, and what impossible options get.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "host/report/atomic_file.h"
+#include "host/report/image_io.h"
+#include "tests/cli/process.h"
+
+namespace glintmark {
+namespace {
+
+ProcessResult simulate(const std::vector<std::string>& options) {
+  std::vector<std::string> arguments = {"simulate", "--quiet"};
+  arguments.insert(arguments.end(), options.begin(), options.end());
+  return runGlintmark(arguments);
+}
+
+// Fails with one sentence that has every one of `parts`.
+void expectRefusal(const std::vector<std::string>& options, const std::vector<std::string>& parts) {
+  const ProcessResult result = simulate(options);
+  EXPECT_EQ(result.exit_code, 2) << result.err;
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  for (const std::string& part : parts)
+    EXPECT_NE(result.err.find(part), std::string::npos) << "no '" << part << "' in " << result.err;
+}
+
+TEST(Simulate, ImpossibleOptionsAreRefused) {
+  expectRefusal({"--surface", "wood"}, {"'wood'", "diffuse, metal, dielectric"});
+  for (const char* alpha : {"0", "-1", "3", "nan"})
+    expectRefusal({"--alpha", alpha}, {"roughness along x", "0.0001 to 2"});
+  expectRefusal({"--alpha", "0.5", "7"}, {"roughness along y 7", "0.0001 to 2"});
+  for (const char* angle : {"90", "-1", "inf"})
+    expectRefusal({"--incidence", angle}, {"incidence", "0 to 89.95"});
+  expectRefusal({"--azimuth", "500"}, {"azimuth", "500"});
+  for (const char* rays : {"-1", "1e30", "nan"})
+    expectRefusal({"--rays", rays}, {"--rays", "1 to 2^48"});
+  expectRefusal({"--rays", "0"}, {"0 rays", "at least 1"});
+  expectRefusal({"--rays", "many"}, {"--rays", "many"});
+  for (const char* orders : {"0", "7"})
+    expectRefusal({"--orders", orders}, {"orders", orders, "1 to 6"});
+  expectRefusal({"--surface", "dielectric", "--ior", "1"}, {"index of refraction 1", "air"});
+  expectRefusal({"--surface", "dielectric", "--ior", "0"}, {"index of refraction", "0.05 to 20"});
+  expectRefusal({"--surface", "metal", "--k", "-1"}, {"imaginary", "-1", "0 to 1000"});
+  expectRefusal({"--albedo", "1.5"}, {"--albedo 1.5", "0 to 1"});
+  expectRefusal({"--albedo", "0.5", "--surface", "metal"}, {"--albedo", "Fresnel"});
+  expectRefusal({"--correlation", "20", "--rays", "10"}, {"correlation length 20", "1.5 to 8"});
+}
+
+TEST(Simulate, OutputsThatCannotBeWrittenAreRefusedBeforeAnyWork) {
+  const TempFolder folder;
+  for (const char* option : {"-o", "--csv", "--checkpoint"})
+    expectRefusal({option, folder / "missing/a.png"}, {"missing"});
+  expectRefusal({"-o", folder / "a.jpg"}, {"a.jpg", ".png"});
+  EXPECT_EQ(folder.entryCount(), 0u);
+}
+
+TEST(Simulate, CarriesOnFromItsOwnCheckpointsOnly) {
+  const TempFolder folder;
+  const std::string file = folder / "run.sim";
+  expectRefusal({"--resume"}, {"--resume", "--checkpoint FILE"});
+  expectRefusal({"--resume", "--checkpoint", file}, {"run.sim"});
+  ASSERT_EQ(simulate({"--rays", "1048576", "--checkpoint", file}).exit_code, 0);
+  const std::string whole = readTextFile(file);
+  expectRefusal({"--resume", "--checkpoint", file, "--alpha", "0.5"},
+                {"run.sim", "another run", "alpha=0.8", "alpha=0.5"});
+  expectRefusal({"--resume", "--checkpoint", file, "--rays", "1000"},
+                {"run.sim", "1048576", "1000"});
+  const ProcessResult more =
+      simulate({"--resume", "--checkpoint", file, "--rays", "1050000", "--csv", folder / "a.csv"});
+  EXPECT_EQ(more.exit_code, 0) << more.err;
+  EXPECT_NE(more.out.find("1050000 rays"), std::string::npos);
+  ASSERT_EQ(simulate({"--rays", "1050000", "--csv", folder / "b.csv"}).exit_code, 0);
+  EXPECT_EQ(readTextFile(folder / "a.csv"), readTextFile(folder / "b.csv"));
+  writeFile(file, whole.substr(0, whole.size() - 9));
+  expectRefusal({"--resume", "--checkpoint", file}, {"run.sim", "damaged"});
+  writeFile(file, "a letter");
+  expectRefusal({"--resume", "--checkpoint", file}, {"run.sim", "not a checkpoint"});
+}
+
+TEST(Simulate, SaysRoughnessAndBalanceAndDrawsPictures) {
+  const TempFolder folder;
+  for (const char* surface : {"diffuse", "metal", "dielectric"}) {
+    const std::string picture = folder / (std::string(surface) + ".png");
+    const ProcessResult result =
+        simulate({"--surface", surface, "--k", "3", "--rays", "20000", "-o", picture});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    for (const char* part : {"energy above", "counted 1.000000000 of the rays", "nominal",
+                             "effective", "slope variance"})
+      EXPECT_NE(result.out.find(part), std::string::npos) << part << " in " << result.out;
+    const Image image = readImage(picture);
+    EXPECT_GT(image.width, 400);
+    EXPECT_NE(*std::ranges::max_element(image.pixels), *std::ranges::min_element(image.pixels));
+  }
+}
+
+TEST(Simulate, AlbedoScalesOrders) {
+  const ProcessResult black = simulate({"--rays", "20000", "--albedo", "0"});
+  EXPECT_NE(black.out.find("escaped 0.000000, absorbed 1.000000"), std::string::npos) << black.out;
+  const ProcessResult white = simulate({"--rays", "20000", "--albedo", "1"});
+  EXPECT_NE(white.out.find("absorbed 0.000000"), std::string::npos) << white.out;
+}
+
+}  // namespace
+}  // namespace glintmark

@@ -1,0 +1,39 @@
+// One device for the tests of simulations.
+#pragma once
+#include "host/simulate/simulation.h"
+
+namespace glintmark {
+
+// Deviations of a count from its expectation are held to this many standard errors: beyond it lies
+// a chance of 6e-7 per comparison.
+inline constexpr double kDeviations = 5;
+
+struct Bench {
+  Device device;
+  ProgramCache cache{device};
+
+  static Bench& shared() {
+    static Bench bench;
+    return bench;
+  }
+};
+
+inline Simulation simulate(const SimulationSettings& settings, int lanes = 0) {
+  Bench& bench = Bench::shared();
+  return Simulator(bench.device, bench.cache, lanes > 0 ? lanes : bench.device.info().default_lanes)
+      .run(settings);
+}
+
+// A mirror whose Fresnel term is 1.
+inline SimulationSettings mirror(double alpha, double incidence_deg, std::uint64_t rays) {
+  SimulationSettings s;
+  s.kind = SurfaceKind::kMetal;
+  s.index_n = 0.05;
+  s.index_k = 1000;
+  s.alpha = glm::dvec2(alpha);
+  s.incidence_deg = incidence_deg;
+  s.rays = rays;
+  return s;
+}
+
+}  // namespace glintmark
