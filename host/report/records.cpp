@@ -153,8 +153,10 @@ std::string headerLine(const RunInfo& run) {
   return dump({{"schema", kResultsSchema}, {"run", runToJson(run)}}, -1);
 }
 
-std::string recordLine(const Record& record) {
-  return dump(recordToJson(record), -1);
+std::string recordLine(const Record& record, std::optional<std::size_t> more) {
+  Json json = recordToJson(record);
+  if (more) json["more"] = *more;
+  return dump(json, -1);
 }
 
 RunInfo parseHeaderLine(const std::string& line, const std::string& source) {
@@ -163,9 +165,11 @@ RunInfo parseHeaderLine(const std::string& line, const std::string& source) {
   return readFields(source, [&] { return runFromJson(json.at("run")); });
 }
 
-Record parseRecordLine(const std::string& line, const std::string& source) {
+LogLine parseRecordLine(const std::string& line, const std::string& source) {
   const Json json = parse(line, source);
-  return readFields(source, [&] { return recordFromJson(json); });
+  return readFields(source, [&] {
+    return LogLine{recordFromJson(json), json.value("more", std::size_t{0})};
+  });
 }
 
 std::string toCsv(const std::vector<Record>& records) {
