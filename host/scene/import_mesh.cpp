@@ -1,4 +1,5 @@
 #include "host/scene/import_mesh.h"
+#include "host/scene/ply_header.h"
 
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -51,6 +52,7 @@ class Importer {
   explicit Importer(const std::filesystem::path& file) : source_(file.string()) {
     importer_.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
                                  aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+    if (file.extension() == ".ply") checkPlySize(file);
     if (importer_.ReadFile(source_, 0) == nullptr) failToRead();
     for (unsigned m = 0; m < importer_.GetScene()->mNumMeshes; ++m) {
       checkFaces(*importer_.GetScene()->mMeshes[m], source_);
@@ -104,7 +106,8 @@ class Importer {
     const aiMatrix3x3 for_normals = aiMatrix3x3(transform).Inverse().Transpose();
     for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
       out.positions.push_back(toVec3(transform * mesh.mVertices[v]));
-      out.normals.push_back(toVec3(for_normals * mesh.mNormals[v]));
+      out.normals.push_back(mesh.HasNormals() ? toVec3(for_normals * mesh.mNormals[v])
+                                              : glm::dvec3(0));
       out.uvs.push_back(mesh.HasTextureCoords(0)
                             ? glm::dvec2(mesh.mTextureCoords[0][v].x, mesh.mTextureCoords[0][v].y)
                             : glm::dvec2(0));
@@ -113,6 +116,7 @@ class Importer {
     const auto base = static_cast<std::uint32_t>(first_vertex);
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
       const aiFace& face = mesh.mFaces[f];
+      if (face.mNumIndices != 3) continue;  // sorting by type leaves points in some meshes
       glm::uvec3 triangle(face.mIndices[0], face.mIndices[1], face.mIndices[2]);
       if (mirrored) std::swap(triangle.y, triangle.z);
       out.triangles.push_back(triangle + base);
@@ -120,7 +124,7 @@ class Importer {
     }
     if (!mesh.HasTextureCoords(0)) {
       projectPlanar(out, first_vertex, first_triangle);
-      triangles_without_uv_ += mesh.mNumFaces;
+      triangles_without_uv_ += out.triangles.size() - first_triangle;
     }
   }
 
