@@ -1,4 +1,5 @@
 #include "host/scene/import_mesh.h"
+#include "host/scene/glb_header.h"
 #include "host/scene/ply_header.h"
 
 #include <assimp/postprocess.h>
@@ -53,6 +54,7 @@ class Importer {
     importer_.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
                                  aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     if (file.extension() == ".ply") checkPlySize(file);
+    if (file.extension() == ".glb") checkGlbSize(file);
     if (importer_.ReadFile(source_, 0) == nullptr) failToRead();
     for (unsigned m = 0; m < importer_.GetScene()->mNumMeshes; ++m) {
       checkFaces(*importer_.GetScene()->mMeshes[m], source_);
