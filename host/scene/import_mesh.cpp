@@ -22,6 +22,9 @@ glm::dvec3 toVec3(const aiVector3D& v) {
 /// A file's mesh must be sound before assimp may work on it: its later steps trust the indices.
 void checkFaces(const aiMesh& mesh, const std::string& source) {
   for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+    if (mesh.mFaces[f].mNumIndices == 0)
+      throw Error(
+          fmt::format("{}: face {} of mesh '{}' has no vertices", source, f, mesh.mName.C_Str()));
     for (unsigned k = 0; k < mesh.mFaces[f].mNumIndices; ++k) {
       if (mesh.mFaces[f].mIndices[k] < mesh.mNumVertices) continue;
       throw Error(fmt::format("{}: face {} of mesh '{}' names vertex {}, but there are only {}",
