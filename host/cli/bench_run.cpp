@@ -59,10 +59,13 @@ BenchRun::BenchRun(const CommandLine& line, const BenchOptions& options)
       options_(options),
       device_(openDevice(line.common)),
       folder_(checkedFolder(options)),
+      lock_(folder_),
       cache_(device_),
       info_(describeRunWithPeaks(line, device_, cache_)),
       key_(measurementKey(line.common, options, info_.width)),
-      log_(openLog(options, info_)) {}
+      log_(openLog(options, info_)) {
+  removeAbandonedFiles(folder_);
+}
 
 std::vector<Record> BenchRun::loggedCase(const std::string& table, const std::string& case_name,
                                          const std::vector<std::string>& metrics) const {
@@ -118,11 +121,16 @@ std::vector<Record> BenchRun::recordsOf(const std::string& table) const {
 
 int BenchRun::finish(const std::string& text) const {
   const std::string json = toJson({info_, records_}), csv = toCsv(records_);
-  writeFile(folder_ / "results.json", json);
-  writeFile(folder_ / "results.csv", csv);
-  writeFile(folder_ / "table.txt", text);
-  if (!options_.json.empty()) writeFile(options_.json, json);
-  if (!options_.csv.empty()) writeFile(options_.csv, csv);
+  try {
+    writeFile(folder_ / "results.json", json);
+    writeFile(folder_ / "results.csv", csv);
+    writeFile(folder_ / "table.txt", text);
+    if (!options_.json.empty()) writeFile(options_.json, json);
+    if (!options_.csv.empty()) writeFile(options_.csv, csv);
+  } catch (const Error& error) {
+    throw Error(fmt::format("{}; all records are in {}, --resume writes the files from them",
+                            error.what(), (folder_ / "records.jsonl").string()));
+  }
   fmt::print("{}\nwritten to {}\n", text, folder_.string());
   return std::ranges::all_of(records_, &Record::valid) ? kExitDone : kExitCheckFailed;
 }

@@ -9,6 +9,7 @@
 
 #include "host/cli/command_line.h"
 #include "host/ocl/compute.h"
+#include "host/report/folder_lock.h"
 #include "host/report/record.h"
 #include "host/report/record_log.h"
 
@@ -26,8 +27,8 @@ struct BenchOptions {
 /// What a table measures and prints. Cases are measured in order, each once.
 class BenchRun {
  public:
-  /// Checks the options, the folder and the files, opens the device, measures its peaks and opens
-  /// the log. Throws Error for whatever is wrong with them.
+  /// Checks the options, the folder and the files, opens the device, locks the folder, measures the
+  /// device's peaks and opens the log. Throws Error for whatever is wrong with them.
   BenchRun(const CommandLine& line, const BenchOptions& options);
 
   const CommandLine& line() const { return line_; }
@@ -60,7 +61,8 @@ class BenchRun {
   const std::vector<Record>& records() const { return records_; }
 
   /// Writes results.json, results.csv, table.txt and the copies asked for, and prints `text`.
-  /// Returns kExitCheckFailed if some record is not valid.
+  /// Returns kExitCheckFailed if some record is not valid. Throws Error if a file cannot be written;
+  /// the log has all records then.
   int finish(const std::string& text) const;
 
  private:
@@ -71,6 +73,7 @@ class BenchRun {
   const BenchOptions& options_;
   Device device_;
   std::filesystem::path folder_;  // made only once there is a device
+  FolderLock lock_;
   ProgramCache cache_;
   RunInfo info_;
   std::map<std::string, std::string> key_;

@@ -15,9 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The page must stay light enough to be mailed and opened on a phone.
-constexpr std::size_t kMostPageBytes = 10'000'000;
-
 std::vector<fs::path> pngFiles(const fs::path& folder) {
   std::vector<fs::path> files;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder))
@@ -34,15 +31,13 @@ int runReport(const std::string& folder, const std::string& output) {
   const fs::path source = fs::path(folder) / "results.json";
   const Results results = readResults(source);
   std::vector<ReportPicture> pictures;
-  for (const fs::path& file : pngFiles(folder))
-    pictures.push_back({file.filename().string(), readTextFile(file)});
+  for (const fs::path& file : pngFiles(folder)) pictures.push_back(readReportPicture(file));
   const std::string page =
       htmlReport(results, pictures,
                  fs::path(source).lexically_proximate(fs::absolute(output).parent_path()).string());
   if (page.size() > kMostPageBytes)
-    throw Error(fmt::format(
-        "the page would have {:.1f} MB, {} MB is the most: take some pictures out of {}",
-        static_cast<double>(page.size()) * 1e-6, kMostPageBytes / 1'000'000, folder));
+    throw Error(fmt::format("the page would have {:.1f} MB without pictures, {} MB is the most",
+                            static_cast<double>(page.size()) * 1e-6, kMostPageBytes / 1'000'000));
   writeFile(output, page);
   fmt::print("{} figures and {} pictures written to {}\n", results.records.size(), pictures.size(),
              output);

@@ -77,9 +77,14 @@ std::optional<NormalMixtures> mixturesFromBytes(std::string_view bytes) {
   result.fit_ms = header.fit_ms;
   result.levels.resize(static_cast<std::size_t>(mipLevelCount(header.width_px, header.height_px)));
   if (!take(bytes, result.levels.data(), result.levels.size())) return std::nullopt;
+  // Before anything of that size is allocated.
+  const MipTexture layout = makeMipTexture(header.width_px, header.height_px);
+  const std::size_t texels_size =
+      (layout.first[layout.level_count - 1] + std::size_t{1}) * header.lobes;
+  if (bytes.size() != texels_size * sizeof(float4)) return std::nullopt;
   result.moments = makeMipTexels(header.width_px, header.height_px, header.lobes);
   std::vector<float4>& texels = result.moments.texels;
-  if (!take(bytes, texels.data(), texels.size()) || !bytes.empty()) return std::nullopt;
+  if (!take(bytes, texels.data(), texels.size())) return std::nullopt;
   return result;
 }
 

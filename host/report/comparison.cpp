@@ -41,7 +41,8 @@ Key keyOf(const Record& record) {
   return {record.table, record.case_, record.metric, std::move(config)};
 }
 
-// Two-sided p-value of "both medians are the same"; nothing if a spread is not known or both are 0.
+// Two-sided p-value of "both medians are the same"; nothing if a spread is not known, both are 0, or
+// something is not finite.
 std::optional<double> welchOnMedians(const Summary& a, const Summary& b) {
   if (a.n < 2 || b.n < 2) return std::nullopt;
   const auto variance_of_median = [](const Summary& s) {
@@ -54,6 +55,7 @@ std::optional<double> welchOnMedians(const Summary& a, const Summary& b) {
   const double freedom =
       (va + vb) * (va + vb) /
       (va * va / static_cast<double>(a.n - 1) + vb * vb / static_cast<double>(b.n - 1));
+  if (!std::isfinite(t) || !std::isfinite(freedom) || freedom <= 0) return std::nullopt;
   return 2 * boost::math::cdf(boost::math::complement(boost::math::students_t(freedom), t));
 }
 

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <span>
+#include <unordered_map>
 
 #include "host/core/error.h"
 #include "host/report/text_drawing.h"
@@ -24,6 +27,14 @@ constexpr int kBarHeight = 10;
 constexpr int kTickHeight = 3;
 constexpr int kLegendHeight = kMargin + 2 * kLine + kBarHeight + kTickHeight + 2 + kLine;
 constexpr int kLegendMinWidth = 320;
+
+// A display colour as a PNG stores it.
+std::uint32_t packed(std::span<const float> colour) {
+  std::uint32_t bytes = 0;
+  for (int c = 0; c < 3; ++c)
+    bytes = bytes << 8 | static_cast<std::uint32_t>(std::lround(255 * colour[c]));
+  return bytes;
+}
 
 int textScale(int width_px) {
   return std::clamp(width_px / 640, 1, 3);
@@ -110,6 +121,22 @@ Image heatmapPicture(const Image& cells, const HeatmapOptions& options) {
   drawLegend(canvas, cells.height, range, options.title,
              statisticsText(distribution, options.guard_hits));
   return canvas;
+}
+
+CellDistribution heatmapDistribution(const Image& picture) {
+  if (picture.channels < 3) throw Error("a heatmap has three channels");
+  const HeatmapRange range;
+  std::unordered_map<std::uint32_t, float> counts;
+  for (double n = range.low; n <= range.high; ++n)
+    counts[packed(falseColour((n - range.low) / (range.high - range.low)))] = static_cast<float>(n);
+  const int height = picture.height - kLegendHeight * textScale(picture.width);
+  Image cells(picture.width, std::max(height, 0), 1);
+  for (int y = 0; y < cells.height; ++y)
+    for (int x = 0; x < cells.width; ++x) {
+      const auto found = counts.find(packed(picture.at(x, y)));
+      cells.at(x, y)[0] = found == counts.end() ? -1.0f : found->second;
+    }
+  return cellDistribution(cells);
 }
 
 Image heatmapStrip(const std::vector<Image>& cells, const std::vector<std::string>& captions,

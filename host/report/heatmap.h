@@ -34,6 +34,10 @@ Image heatmapColours(const Image& cells, const HeatmapRange& range);
 /// image keeps its size at the top left; the canvas is at least wide enough for the legend.
 Image heatmapPicture(const Image& cells, const HeatmapOptions& options);
 
+/// The distribution behind a heatmapPicture of kFixed scale, read back from its colours; counts
+/// outside 8 to 64 come back as the nearer end.
+CellDistribution heatmapDistribution(const Image& picture);
+
 /// Pictures of one view each side by side with a caption under each, one legend below.
 Image heatmapStrip(const std::vector<Image>& cells, const std::vector<std::string>& captions,
                    HeatmapScale scale, const std::string& title);

@@ -3,49 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <set>
 
+#include "host/report/case_records.h"
+#include "host/report/page/chart_section.h"
+#include "host/report/page/table_names.h"
+#include "host/report/page/table_section.h"
 #include "host/report/page_resources.h"
 #include "host/report/text_table.h"
 
 namespace glintmark {
 namespace {
 
-struct TableTitle {
-  std::string_view table, title, source;
-};
-constexpr std::array<TableTitle, 6> kTitles = {{
-    {"zk16", "Glints", "Zirr & Kaplanyan 2016, Table 1: GeForce GTX 980, 1920×1080"},
-    {"tao21", "Area lights", "Tao et al. 2021: GeForce GTX 1070, 1920×1080"},
-    {"tan05", "Normal filtering", "Tan et al. 2005: 500×500"},
-    {"msbrdf", "Multiple scattering", "Patapom's brute-force ray casting and lobe fit"},
-    {"effects", "Effects on demand", ""},
-    {"accuracy", "Accuracy against time", ""},
-}};
-
-TableTitle titleOf(const std::string& table) {
-  const auto found = std::ranges::find(kTitles, table, &TableTitle::table);
-  return found != kTitles.end() ? *found : TableTitle{table, table, ""};
-}
-
-// Distinct values of a field, in the order of their first appearance.
-std::vector<std::string> distinct(std::span<const Record> records, std::string Record::*field) {
-  std::vector<std::string> names;
-  for (const Record& record : records)
-    if (std::ranges::find(names, record.*field) == names.end()) names.push_back(record.*field);
-  return names;
-}
-
-std::string number(const Record& record) {
-  const std::string text = compactNumber(record.value.median);
-  return record.valid ? text : fmt::format("<span class=\"bad\">{}!</span>", text);
-}
-
 std::string factsHtml(const RunInfo& run) {
   std::string html = "<dl class=\"facts\">\n";
   const auto add = [&](const char* name, const std::string& value) {
-    html += fmt::format("<dt>{}</dt><dd>{}</dd>\n", name, escapeHtml(value));
+    html += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", name, escapeHtml(value));
   };
   add("device", run.device);
   add("platform", run.platform + ", driver " + run.driver);
@@ -57,81 +29,57 @@ std::string factsHtml(const RunInfo& run) {
   return html + "</dl>\n";
 }
 
-// Figures that the paper gives too, each figure's cases together.
-std::string paperHtml(std::span<const Record> records) {
-  std::string rows;
-  for (const std::string& metric : distinct(records, &Record::metric)) {
-    for (const Record& record : records) {
-      if (!record.paper || record.metric != metric) continue;
-      rows += fmt::format(
-          "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>±{}</td><td>{}</td></tr>\n",
-          escapeHtml(record.case_), escapeHtml(metric), compactNumber(*record.paper),
-          number(record), compactNumber(record.value.stddev),
-          *record.paper != 0 ? compactNumber(record.value.median / *record.paper) : "–");
-    }
-  }
-  if (rows.empty()) return "";
-  return "<div class=\"wide\"><table>\n<tr><th>case</th><th>figure</th><th>paper</th><th>here</th>"
-         "<th>spread</th><th>here / paper</th></tr>\n" +
-         rows + "</table></div>\n";
-}
+struct Headline {
+  const char *table, *metric, *text;
+};
+// What one figure says about a table; of several cases, from the least to the most.
+constexpr Headline kHeadlines[] = {
+    {"zk16", "normalised_cost", "cost of glints per FLOP, the paper's GPU being 1"},
+    {"tan05", "gmm_over_toksvig", "times Toksvig's time for mixtures of normals"},
+    {"tao21", "multiscale_over_original", "times the original's time for multi-scale area lights"},
+    {"msbrdf", "runtime_ms", "ms more for multiple scattering, full screen"},
+    {"effects", "uber_over_specialised", "times as long if every effect is compiled in"},
+    {"accuracy", "pareto", "settings on the front of accuracy against time"},
+};
 
-// All figures: cases down, metrics across.
-std::string allFiguresHtml(std::span<const Record> records) {
-  const std::vector<std::string> metrics = distinct(records, &Record::metric);
-  std::string html =
-      "<details><summary>All figures</summary>\n<div class=\"wide\"><table>\n<tr>"
-      "<th>case</th>";
-  for (const std::string& metric : metrics) html += "<th>" + escapeHtml(metric) + "</th>";
-  html += "</tr>\n";
-  for (const std::string& name : distinct(records, &Record::case_)) {
-    html += "<tr><td>" + escapeHtml(name) + "</td>";
-    for (const std::string& metric : metrics) {
-      const auto found = std::ranges::find_if(records, [&](const Record& record) {
-        return record.case_ == name && record.metric == metric;
-      });
-      html += "<td>" + (found != records.end() ? number(*found) : "") + "</td>";
-    }
-    html += "</tr>\n";
-  }
-  return html + "</table></div></details>\n";
-}
-
-// Why some figures are not valid, one line per case.
-std::string invalidHtml(std::span<const Record> records) {
+std::string headlinesHtml(std::span<const Record> records) {
   std::string html;
-  std::set<std::string> seen;
-  for (const Record& record : records)
-    if (!record.valid && seen.insert(record.case_).second)
-      html += fmt::format("<p class=\"bad\">{}: {}</p>\n", escapeHtml(record.case_),
-                          escapeHtml(record.note));
-  return html;
-}
-
-std::string picturesHtml(std::span<const ReportPicture> pictures) {
-  if (pictures.empty()) return "";
-  std::string html = "<h2 id=\"pictures\">Pictures</h2>\n<div class=\"pictures\">\n";
-  for (const ReportPicture& picture : pictures) {
-    const std::string name = escapeHtml(picture.name);
-    html += fmt::format(
-        "<figure><img alt=\"{}\" src=\"data:image/png;base64,{}\"><figcaption>{}</figcaption>"
-        "</figure>\n",
-        name, base64(picture.png_bytes), name);
+  for (const Headline& headline : kHeadlines) {
+    std::vector<double> values;
+    for (const Record& record : records)
+      if (record.table == headline.table && record.metric == headline.metric && record.valid)
+        values.push_back(record.value.median);
+    if (values.empty()) continue;
+    const auto [least, most] = std::ranges::minmax(values);
+    std::string figure = compactNumber(least);
+    if (std::string_view(headline.metric) == "pareto")
+      figure = std::to_string(std::ranges::count(values, 1.0));
+    else if (most > least)
+      figure += " … " + compactNumber(most);
+    html += fmt::format("<a class=\"tile\" href=\"#{}\"><b>{}</b><span>{}</span></a>\n",
+                        headline.table, figure, headline.text);
   }
-  return html + "</div>\n";
+  return html.empty() ? "" : "<div class=\"tiles\">\n" + html + "</div>\n";
 }
 
-std::string sectionHtml(const std::string& table, std::span<const Record> records) {
-  const TableTitle title = titleOf(table);
+std::string sectionHtml(const std::string& table, std::span<const Record> records,
+                        PictureShelf& shelf) {
+  const TableName name = tableName(table);
+  const std::string paper = paperTablesHtml(table, records);
   std::string html =
-      fmt::format("<h2 id=\"{}\">{}</h2>\n", escapeHtml(table), escapeHtml(title.title));
-  if (!title.source.empty()) html += fmt::format("<p>{}</p>\n", escapeHtml(title.source));
-  html += invalidHtml(records) + paperHtml(records);
-  if (table == "zk16")
-    html +=
-        "<div class=\"chart\"><canvas data-chart=\"breakdown\" data-table=\"zk16\" "
-        "role=\"img\" aria-label=\"Where the time of a frame goes\"></canvas></div>\n";
-  return html + allFiguresHtml(records);
+      fmt::format("<section>\n<h2 id=\"{}\">{}</h2>\n", escapeHtml(table), escapeHtml(name.title));
+  if (!name.about.empty()) html += fmt::format("<p>{}</p>\n", escapeHtml(name.about));
+  if (!name.source.empty() && !paper.empty())
+    html += fmt::format("<p class=\"source\">Paper: {}</p>\n", escapeHtml(name.source));
+  html += invalidHtml(records) + paper;
+  std::string own;
+  if (table == "accuracy") own = accuracyHtml(records);
+  if (table == "effects") own = effectsHtml(records);
+  html += own + timeBarsHtml(records);
+  if (table != "accuracy") html += curvesHtml(table, records);
+  html += shelf.tablePictures(table, records);
+  // What no part of the page is made for stands open.
+  return html + allFiguresHtml(records, paper.empty() && own.empty()) + "</section>\n";
 }
 
 // JSON inside a script element must not hold "</".
@@ -144,85 +92,56 @@ std::string recordsJson(std::span<const Record> records) {
   return safe;
 }
 
+std::string headerHtml(const Results& results, const std::vector<std::string>& tables,
+                       const std::string& source) {
+  const std::string link = escapeHtml(source);
+  std::string html = fmt::format(
+      "<header>\n<h1>glintmark</h1>\n<p class=\"lead\">What micro-detail shading costs on "
+      "<b>{}</b>, "
+      "and what its accuracy costs.</p>\n{}<details class=\"run\" open><summary>The "
+      "run</summary>\n{}"
+      "</details>\n<p class=\"source\">{} records: <a href=\"{}\">{}</a>. A figure with "
+      "<span class=\"bad\">!</span> failed the check of its run.</p>\n</header>\n<nav "
+      "aria-label=\"Sections\">",
+      escapeHtml(results.run.device), headlinesHtml(results.records), factsHtml(results.run),
+      results.records.size(), link, link);
+  for (const std::string& table : tables)
+    html += fmt::format("<a href=\"#{}\">{}</a>", escapeHtml(table),
+                        escapeHtml(tableName(table).title));
+  return html + "</nav>\n";
+}
+
 }  // namespace
-
-std::string escapeHtml(std::string_view text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      case '\'':
-        escaped += "&#39;";
-        break;
-      default:
-        escaped += c;
-    }
-  }
-  return escaped;
-}
-
-std::string base64(std::string_view bytes) {
-  constexpr std::string_view kDigits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      group = group << 8 | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k)
-      text += k <= count ? kDigits[group >> (18 - 6 * k) & 63u] : '=';
-  }
-  return text;
-}
 
 std::string htmlReport(const Results& results, std::span<const ReportPicture> pictures,
                        const std::string& source) {
-  const std::string source_html = escapeHtml(source);
-  std::string body = fmt::format(
-      "<header><h1>glintmark</h1>\n<p>What micro-detail shading costs on this device. Records: <a "
-      "href=\"{}\">{}</a>. A figure with ! failed the check of its run.</p>\n{}",
-      source_html, source_html, factsHtml(results.run));
-  const std::vector<std::string> tables = distinct(results.records, &Record::table);
-  body += "<nav>";
-  for (const std::string& table : tables)
-    body +=
-        fmt::format("<a href=\"#{}\">{}</a>", escapeHtml(table), escapeHtml(titleOf(table).title));
-  if (!pictures.empty()) body += "<a href=\"#pictures\">Pictures</a>";
-  body += "</nav></header>\n<main>\n";
+  std::string html =
+      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<meta name=\"color-scheme\" content=\"light dark\">\n<link rel=\"icon\" "
+      "href=\"data:,\">\n<title>glintmark, " +
+      escapeHtml(results.run.device) + "</title>\n<style>\n";
+  html += pageCss();
+  const std::vector<std::string> tables = distinctValues(results.records, &Record::table);
+  html += "</style>\n</head>\n<body>\n" + headerHtml(results, tables, source) + "<main>\n";
+
+  std::string end = "</main>\n<script type=\"application/json\" id=\"records\">" +
+                    recordsJson(results.records) + "</script>\n<script>\n";
+  end += chartJs();
+  end += "\n</script>\n<script>\n";
+  end += pageJs();
+  end += "</script>\n</body>\n</html>\n";
+
+  // Tables are a small multiple of the records, hence the factor.
+  const std::size_t others = html.size() + 2 * end.size();
+  PictureShelf shelf(pictures, others < kMostPageBytes ? kMostPageBytes - others : 0);
   for (const std::string& table : tables) {
     std::vector<Record> records;
     std::ranges::copy_if(results.records, std::back_inserter(records),
                          [&](const Record& record) { return record.table == table; });
-    body += sectionHtml(table, records);
+    html += sectionHtml(table, records, shelf);
   }
-  body += picturesHtml(pictures) + "</main>\n";
-
-  std::string html =
-      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<meta name=\"color-scheme\" content=\"light dark\">\n<title>glintmark, " +
-      escapeHtml(results.run.device) + "</title>\n<style>\n";
-  html += pageCss();
-  html += "</style>\n</head>\n<body>\n" + body +
-          "<script type=\"application/json\" id=\"records\">" + recordsJson(results.records) +
-          "</script>\n<script>\n";
-  html += chartJs();
-  html += "\n</script>\n<script>\n";
-  html += pageJs();
-  return html + "</script>\n</body>\n</html>\n";
+  return html + shelf.otherPictures() + end;
 }
 
 }  // namespace glintmark

@@ -3,24 +3,22 @@
 #include <span>
 #include <string>
 
+#include "host/report/page/html_text.h"
+#include "host/report/page/pictures.h"
 #include "host/report/records.h"
 
 namespace glintmark {
 
-struct ReportPicture {
-  std::string name;       // file name, "cells_snow_steep.png"
-  std::string png_bytes;  // the file as it is
-};
+/// The page must stay light enough to be mailed and opened on a phone; pictures that would make it
+/// larger are left out, and it says so in their places.
+inline constexpr std::size_t kMostPageBytes = 10'000'000;
 
 /// The page as HTML. It loads nothing: style, script, charts' library and pictures are part of it.
 /// Tables and pictures show without script. `source` names the results file, which is linked.
 std::string htmlReport(const Results& results, std::span<const ReportPicture> pictures,
                        const std::string& source);
 
-/// `text` with &, <, > and quotes as HTML writes them.
-std::string escapeHtml(std::string_view text);
-
-/// RFC 4648.
-std::string base64(std::string_view bytes);
+/// Script elements of every page: its records, Chart.js, its own.
+inline constexpr std::size_t kPageScripts = 3;
 
 }  // namespace glintmark

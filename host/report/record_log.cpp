@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <iterator>
 #include <utility>
 
 #include "host/core/error.h"
@@ -48,7 +49,37 @@ RecordLog::~RecordLog() {
   if (descriptor_ >= 0) close(descriptor_);
 }
 
+LogContent parseLog(const std::string& text, const std::string& source) {
+  LogContent content;
+  std::vector<Record> batch;
+  std::size_t begin = 0;
+  for (int line_number = 1; begin < text.size(); ++line_number) {
+    const std::size_t end = text.find('\n', begin);
+    if (end == std::string::npos) break;
+    const std::string line = text.substr(begin, end - begin);
+    const std::string line_source = fmt::format("{} line {}", source, line_number);
+    begin = end + 1;
+    if (line_number == 1) {
+      content.run = parseHeaderLine(line, line_source);
+    } else {
+      LogLine parsed = parseRecordLine(line, line_source);
+      batch.push_back(std::move(parsed.record));
+      if (parsed.more > 0) continue;
+    }
+    std::ranges::move(batch, std::back_inserter(content.records));
+    batch.clear();
+    content.whole_bytes = begin;
+  }
+  return content;
+}
+
 RecordLog RecordLog::create(const std::filesystem::path& path, const RunInfo& run) {
+  std::error_code error;
+  if (std::filesystem::is_regular_file(path, error)) {
+    std::filesystem::path old = path;
+    std::filesystem::rename(path, old += ".old", error);
+    if (error) throw Error(fmt::format("cannot rename {}: {}", path.string(), error.message()));
+  }
   RecordLog log(path, false);
   writeAll(log.descriptor_, headerLine(run) + "\n", path);
   return log;
@@ -56,24 +87,13 @@ RecordLog RecordLog::create(const std::filesystem::path& path, const RunInfo& ru
 
 RecordLog RecordLog::resume(const std::filesystem::path& path, const RunInfo& run) {
   if (!std::filesystem::exists(path)) return create(path, run);
-  const std::string text = readTextFile(path);
-  const std::size_t whole_lines = text.rfind('\n') + 1;  // npos + 1 is 0
-  if (whole_lines == 0) return create(path, run);
+  LogContent content = parseLog(readTextFile(path), path.string());
+  if (!content.run) return create(path, run);
+  requireSameSetup(*content.run, run, path.string());
 
   RecordLog log(path, true);
-  std::size_t begin = 0;
-  for (int line_number = 1; begin < whole_lines; ++line_number) {
-    const std::size_t end = text.find('\n', begin);
-    const std::string line = text.substr(begin, end - begin);
-    const std::string source = fmt::format("{} line {}", path.string(), line_number);
-    if (line_number == 1) {
-      requireSameSetup(parseHeaderLine(line, source), run, path.string());
-    } else {
-      log.records_.push_back(parseRecordLine(line, source));
-    }
-    begin = end + 1;
-  }
-  if (ftruncate(log.descriptor_, static_cast<off_t>(whole_lines)) != 0) {
+  log.records_ = std::move(content.records);
+  if (ftruncate(log.descriptor_, static_cast<off_t>(content.whole_bytes)) != 0) {
     throw Error(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
   }
   return log;
@@ -81,10 +101,18 @@ RecordLog RecordLog::resume(const std::filesystem::path& path, const RunInfo& ru
 
 void RecordLog::append(std::span<const Record> records) {
   std::string lines;
-  for (const Record& record : records) lines += recordLine(record) + "\n";
-  writeAll(descriptor_, lines, path_);
-  if (fsync(descriptor_) != 0 && errno != EINVAL) {
-    throw Error(fmt::format("cannot write {}: {}", path_.string(), std::strerror(errno)));
+  for (std::size_t i = 0; i < records.size(); ++i)
+    lines += recordLine(records[i], records.size() - 1 - i) + "\n";
+  const off_t size_before = lseek(descriptor_, 0, SEEK_END);
+  try {
+    writeAll(descriptor_, lines, path_);
+    if (fsync(descriptor_) != 0 && errno != EINVAL) {
+      throw Error(fmt::format("cannot write {}: {}", path_.string(), std::strerror(errno)));
+    }
+  } catch (const Error&) {
+    // Not needed for a later resume; it keeps the log readable for people and gives the space back.
+    if (size_before >= 0 && ftruncate(descriptor_, size_before) != 0) errno = 0;
+    throw;
   }
   records_.insert(records_.end(), records.begin(), records.end());
 }

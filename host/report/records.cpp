@@ -22,17 +22,26 @@ Json runToJson(const RunInfo& run) {
           {"peak_gbs", run.peak_gbs}};
 }
 
+// A whole number that T can hold; the library casts whatever number it finds.
+template <typename T>
+T wholeNumber(const Json& json, const char* name) {
+  const double value = json.at(name).get<double>();
+  if (!(value >= 0 && value <= 1e9 && value == std::floor(value)))
+    throw Error(fmt::format("field {} is {}, not a whole number from 0 to 1e9", name, value));
+  return static_cast<T>(value);
+}
+
 RunInfo runFromJson(const Json& json) {
   RunInfo run;
   json.at("date").get_to(run.date);
   json.at("git").get_to(run.git);
   json.at("command").get_to(run.command);
   json.at("cpu").get_to(run.cpu);
-  json.at("cores").get_to(run.cores);
+  run.cores = wholeNumber<int>(json, "cores");
   json.at("device").get_to(run.device);
   json.at("driver").get_to(run.driver);
   json.at("platform").get_to(run.platform);
-  json.at("width").get_to(run.width);
+  run.width = wholeNumber<int>(json, "width");
   json.at("peak_gflops").get_to(run.peak_gflops);
   json.at("peak_gbs").get_to(run.peak_gbs);
   return run;
@@ -74,7 +83,7 @@ Record recordFromJson(const Json& json) {
   record.value.min = numberOrNan(json.at("min"));
   record.value.p95 = numberOrNan(json.at("p95"));
   record.value.stddev = numberOrNan(json.at("stddev"));
-  json.at("n").get_to(record.value.n);
+  record.value.n = wholeNumber<std::size_t>(json, "n");
   if (!json.at("paper").is_null()) record.paper = json.at("paper").get<double>();
   json.at("valid").get_to(record.valid);
   json.at("note").get_to(record.note);
@@ -87,6 +96,8 @@ Json parse(const std::string& text, const std::string& source) {
     return Json::parse(text);
   } catch (const Json::parse_error& error) {
     throw Error(fmt::format("{} is not valid JSON or was cut off (byte {})", source, error.byte));
+  } catch (const Json::out_of_range&) {
+    throw Error(fmt::format("{} holds a number that is too large", source));
   }
 }
 
@@ -105,6 +116,8 @@ template <typename Read>
 auto readFields(const std::string& source, Read read) {
   try {
     return read();
+  } catch (const Error& error) {
+    throw Error(fmt::format("{}: {}", source, error.what()));
   } catch (const Json::exception& error) {
     throw Error(
         fmt::format("{} lacks a field or has one of the wrong type ({})", source, error.what()));
@@ -153,8 +166,10 @@ std::string headerLine(const RunInfo& run) {
   return dump({{"schema", kResultsSchema}, {"run", runToJson(run)}}, -1);
 }
 
-std::string recordLine(const Record& record) {
-  return dump(recordToJson(record), -1);
+std::string recordLine(const Record& record, std::optional<std::size_t> more) {
+  Json json = recordToJson(record);
+  if (more) json["more"] = *more;
+  return dump(json, -1);
 }
 
 RunInfo parseHeaderLine(const std::string& line, const std::string& source) {
@@ -163,9 +178,12 @@ RunInfo parseHeaderLine(const std::string& line, const std::string& source) {
   return readFields(source, [&] { return runFromJson(json.at("run")); });
 }
 
-Record parseRecordLine(const std::string& line, const std::string& source) {
+LogLine parseRecordLine(const std::string& line, const std::string& source) {
   const Json json = parse(line, source);
-  return readFields(source, [&] { return recordFromJson(json); });
+  return readFields(source, [&] {
+    return LogLine{recordFromJson(json),
+                   json.contains("more") ? wholeNumber<std::size_t>(json, "more") : 0};
+  });
 }
 
 std::string toCsv(const std::vector<Record>& records) {

@@ -1,6 +1,7 @@
 // Records as JSON and CSV. results/README.md describes the schema.
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,11 +26,17 @@ std::string toJson(const Results& results);
 /// field missing or of the wrong type.
 Results fromJson(const std::string& text, const std::string& source);
 
-/// One line each of JSON without newlines, for the running log.
+/// One line each of JSON without newlines, for the running log. `more` counts the records behind
+/// this one that belong to it, so that a batch that was cut short can be told from a whole one.
 std::string headerLine(const RunInfo& run);
-std::string recordLine(const Record& record);
+std::string recordLine(const Record& record, std::optional<std::size_t> more = {});
 RunInfo parseHeaderLine(const std::string& line, const std::string& source);
-Record parseRecordLine(const std::string& line, const std::string& source);
+
+struct LogLine {
+  Record record;
+  std::size_t more = 0;
+};
+LogLine parseRecordLine(const std::string& line, const std::string& source);
 
 /// CSV of RFC 4180 with a header row; config as `key=value` pairs joined by semicolons. Numbers
 /// have the digits that give the same double back.

@@ -1,4 +1,6 @@
 #include "host/scene/import_mesh.h"
+#include "host/scene/glb_header.h"
+#include "host/scene/ply_header.h"
 
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -20,6 +22,9 @@ glm::dvec3 toVec3(const aiVector3D& v) {
 /// A file's mesh must be sound before assimp may work on it: its later steps trust the indices.
 void checkFaces(const aiMesh& mesh, const std::string& source) {
   for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+    if (mesh.mFaces[f].mNumIndices == 0)
+      throw Error(
+          fmt::format("{}: face {} of mesh '{}' has no vertices", source, f, mesh.mName.C_Str()));
     for (unsigned k = 0; k < mesh.mFaces[f].mNumIndices; ++k) {
       if (mesh.mFaces[f].mIndices[k] < mesh.mNumVertices) continue;
       throw Error(fmt::format("{}: face {} of mesh '{}' names vertex {}, but there are only {}",
@@ -51,6 +56,8 @@ class Importer {
   explicit Importer(const std::filesystem::path& file) : source_(file.string()) {
     importer_.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
                                  aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+    if (file.extension() == ".ply") checkPlySize(file);
+    if (file.extension() == ".glb") checkGlbSize(file);
     if (importer_.ReadFile(source_, 0) == nullptr) failToRead();
     for (unsigned m = 0; m < importer_.GetScene()->mNumMeshes; ++m) {
       checkFaces(*importer_.GetScene()->mMeshes[m], source_);
@@ -104,7 +111,8 @@ class Importer {
     const aiMatrix3x3 for_normals = aiMatrix3x3(transform).Inverse().Transpose();
     for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
       out.positions.push_back(toVec3(transform * mesh.mVertices[v]));
-      out.normals.push_back(toVec3(for_normals * mesh.mNormals[v]));
+      out.normals.push_back(mesh.HasNormals() ? toVec3(for_normals * mesh.mNormals[v])
+                                              : glm::dvec3(0));
       out.uvs.push_back(mesh.HasTextureCoords(0)
                             ? glm::dvec2(mesh.mTextureCoords[0][v].x, mesh.mTextureCoords[0][v].y)
                             : glm::dvec2(0));
@@ -113,6 +121,7 @@ class Importer {
     const auto base = static_cast<std::uint32_t>(first_vertex);
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
       const aiFace& face = mesh.mFaces[f];
+      if (face.mNumIndices != 3) continue;  // sorting by type leaves points in some meshes
       glm::uvec3 triangle(face.mIndices[0], face.mIndices[1], face.mIndices[2]);
       if (mirrored) std::swap(triangle.y, triangle.z);
       out.triangles.push_back(triangle + base);
@@ -120,7 +129,7 @@ class Importer {
     }
     if (!mesh.HasTextureCoords(0)) {
       projectPlanar(out, first_vertex, first_triangle);
-      triangles_without_uv_ += mesh.mNumFaces;
+      triangles_without_uv_ += out.triangles.size() - first_triangle;
     }
   }
 

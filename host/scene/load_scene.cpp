@@ -17,16 +17,11 @@
 namespace glintmark {
 namespace {
 
-toml::table parseFile(const std::string& file) {
+std::string readSceneText(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
-  const std::string content((std::istreambuf_iterator<char>(stream)), {});
+  std::string text((std::istreambuf_iterator<char>(stream)), {});
   if (!stream) throw Error(fmt::format("{}: cannot be read", file));
-  try {
-    return toml::parse(content, file);
-  } catch (const toml::parse_error& error) {
-    throw Error(fmt::format("{}:{}: malformed TOML: {}", file, error.source().begin.line,
-                            error.description()));
-  }
+  return text;
 }
 
 /// Material of a part by the rule that fits its name most closely: the name itself, else the
@@ -81,15 +76,21 @@ void readPost(SceneTable& root, PostEffects& post) {
 
 }  // namespace
 
-Scene loadScene(const SceneRequest& request) {
-  const std::filesystem::path path = findSceneFile(request.scene);
-  const std::string file = path.string();
-  toml::table content = parseFile(file);
+toml::table parseSceneText(std::string_view text, const std::string& file) {
+  try {
+    return toml::parse(text, file);
+  } catch (const toml::parse_error& error) {
+    throw Error(fmt::format("{}:{}: malformed TOML: {}", file, error.source().begin.line,
+                            error.description()));
+  }
+}
+
+PlannedScene planScene(toml::table& content, const std::string& file, const SceneRequest& request) {
   for (const std::string& text : request.overrides) applyOverride(content, text, file);
 
   SceneTable root(content, "", file);
   Scene scene;
-  scene.name = path.stem().string();
+  scene.name = std::filesystem::path(file).stem().string();
   scene.description = root.text("description");
   scene.cull_back_faces = root.flag("cull_back_faces", false);
   scene.materials = readMaterials(root, request);
@@ -98,13 +99,22 @@ Scene loadScene(const SceneRequest& request) {
   scene.lights = readLights(root);
   scene.area_lights = readAreaLights(root, request);
   readPost(root, scene.post);
-  const MeshPlan plan = readMesh(root, request, scene.materials);
+  MeshPlan plan = readMesh(root, request, scene.materials);
   scene.environment = readEnvironment(root, request, scene.lights);
   root.finish();
   if (scene.lights.empty() && scene.area_lights.empty()) {
     root.fail("light",
               "is missing, expected at least one [[light]], [[area_light]] or [environment]");
   }
+  return {std::move(scene), std::move(plan)};
+}
+
+Scene loadScene(const SceneRequest& request) {
+  const std::string file = findSceneFile(request.scene).string();
+  toml::table content = parseSceneText(readSceneText(file), file);
+  PlannedScene planned = planScene(content, file, request);
+  const MeshPlan& plan = planned.plan;
+  Scene& scene = planned.scene;
 
   buildMesh(plan, scene);
   replaceViews(plan.own_views, scene.views);
@@ -116,7 +126,7 @@ Scene loadScene(const SceneRequest& request) {
     scene.notes.push_back(fmt::format("{} is not in {}, so the procedural mesh stands in",
                                       plan.missing_asset, request.asset_folder.string()));
   }
-  return scene;
+  return std::move(planned.scene);
 }
 
 }  // namespace glintmark

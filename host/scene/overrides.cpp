@@ -39,7 +39,11 @@ toml::table parseValue(const std::string& text, const std::string& source) {
     const bool plain = static_cast<unsigned char>(c) >= 0x20 && c != '"' && c != '\\' && c != 0x7F;
     quoted += plain ? std::string(1, c) : fmt::format("\\u{:04X}", static_cast<unsigned char>(c));
   }
-  return toml::parse("value = \"" + quoted + "\"", source);
+  try {
+    return toml::parse("value = \"" + quoted + "\"", source);
+  } catch (const toml::parse_error&) {
+    throw Error(fmt::format("{}: the value is not UTF-8 text", source));
+  }
 }
 
 /// The element of `array` that `step` names, by `name` or by position.

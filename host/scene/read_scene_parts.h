@@ -53,4 +53,16 @@ struct MeshPlan {
 MeshPlan readMesh(SceneTable& root, const SceneRequest& request,
                   const std::vector<Material>& materials);
 
+/// The TOML of a scene file. Throws Error with the line of what is malformed.
+toml::table parseSceneText(std::string_view text, const std::string& file);
+
+/// A scene that lacks its mesh, and where that comes from.
+struct PlannedScene {
+  Scene scene;
+  MeshPlan plan;
+};
+
+/// Everything of a scene file but building its mesh; changes `content` by the request's overrides.
+PlannedScene planScene(toml::table& content, const std::string& file, const SceneRequest& request);
+
 }  // namespace glintmark

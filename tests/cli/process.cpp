@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -23,7 +24,7 @@ void redirect(const char* file, int flags, int descriptor) {
 }  // namespace
 
 Process::Process(const std::vector<std::string>& arguments,
-                 const std::vector<std::string>& environment) {
+                 const std::vector<std::string>& environment, std::size_t most_file_bytes) {
   std::vector<char*> argv = {const_cast<char*>(kProgram)};
   for (const std::string& word : arguments) argv.push_back(const_cast<char*>(word.c_str()));
   argv.push_back(nullptr);
@@ -34,12 +35,27 @@ Process::Process(const std::vector<std::string>& arguments,
   redirect(out.c_str(), O_WRONLY | O_CREAT, STDOUT_FILENO);
   redirect(err.c_str(), O_WRONLY | O_CREAT, STDERR_FILENO);
   for (const std::string& entry : environment) putenv(const_cast<char*>(entry.c_str()));
+  if (most_file_bytes > 0) {
+    const rlimit limit = {most_file_bytes, most_file_bytes};
+    signal(SIGXFSZ, SIG_IGN);
+    if (setrlimit(RLIMIT_FSIZE, &limit) != 0) _exit(kExitNotStarted);
+  }
   execv(kProgram, argv.data());
   _exit(kExitNotStarted);
 }
 
 void Process::interrupt() const {
-  kill(pid_, SIGINT);
+  ::kill(pid_, SIGINT);
+}
+
+void Process::kill() const {
+  ::kill(pid_, SIGKILL);
+}
+
+bool Process::isRunning() const {
+  siginfo_t info = {};
+  return waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+         info.si_pid == 0;
 }
 
 ProcessResult Process::wait() {

@@ -1,10 +1,14 @@
 #include "host/report/html_report.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "host/report/heatmap.h"
 #include "tests/report/sample_records.h"
+#include "tests/report/sample_run.h"
 
 namespace glintmark {
 namespace {
@@ -40,8 +44,8 @@ Results sampleResults() {
 TEST(HtmlReport, ShowsFactsPaperAndRatio) {
   const std::string page = htmlReport(sampleResults(), {}, "results.json");
   EXPECT_TRUE(page.starts_with("<!doctype html>"));
-  EXPECT_NE(page.find("<td>2.50</td><td>42.0</td>"), std::string::npos);
-  EXPECT_NE(page.find("<td>16.8</td>"), std::string::npos);  // 42 / 2.5
+  EXPECT_NE(page.find("<td>2.50</td><td class=\"here\">42.0</td>"), std::string::npos);
+  EXPECT_NE(page.find("1.000\">16.8</td>"), std::string::npos);  // 42 / 2.5, the longest bar
   EXPECT_NE(page.find("cpu-device"), std::string::npos);
   EXPECT_NE(page.find("99.0!"), std::string::npos);
   EXPECT_EQ(countOf(page, "<table>"), countOf(page, "</table>"));
@@ -50,7 +54,9 @@ TEST(HtmlReport, ShowsFactsPaperAndRatio) {
 TEST(HtmlReport, NothingIsLoadedAndNothingEscapes) {
   const std::string page = htmlReport(sampleResults(), {}, "results.json");
   EXPECT_EQ(page.find("src=\"http"), std::string::npos);
-  EXPECT_EQ(page.find("<link"), std::string::npos);
+  EXPECT_EQ(page.find("href=\"http"), std::string::npos);
+  EXPECT_EQ(countOf(page, "<link"), 1u);  // the empty icon
+  EXPECT_NE(page.find("<link rel=\"icon\" href=\"data:,\">"), std::string::npos);
   EXPECT_EQ(page.find("<script>alert(1)"), std::string::npos);
   EXPECT_EQ(countOf(page, "<script"), 3u);  // records, Chart.js, ours
   EXPECT_EQ(countOf(page, "</script>"), 3u);
@@ -67,10 +73,67 @@ TEST(HtmlReport, RecordsCanBeReadBack) {
 }
 
 TEST(HtmlReport, PicturesAreInside) {
-  const ReportPicture picture{"cells & more.png", "foobar"};
+  const ReportPicture picture{"cells & more.png", "foobar", "", {}};
   const std::string page = htmlReport(sampleResults(), {&picture, 1}, "results.json");
   EXPECT_NE(page.find("data:image/png;base64,Zm9vYmFy"), std::string::npos);
   EXPECT_NE(page.find("cells &amp; more.png"), std::string::npos);
+}
+
+TEST(HtmlReport, EveryTableHasItsSection) {
+  const std::string page = htmlReport(SampleRun().results(), {}, "results.json");
+  for (const char* table :
+       {"zk16", "tan05", "tao21", "msbrdf", "effects", "accuracy", "some_new_table"})
+    EXPECT_NE(page.find(fmt::format("<h2 id=\"{}\">", table)), std::string::npos) << table;
+  for (const char* element : {"table", "section", "details", "figure", "div", "p", "tr", "h3"})
+    EXPECT_EQ(
+        countOf(page, fmt::format("<{}>", element)) + countOf(page, fmt::format("<{} ", element)),
+        countOf(page, fmt::format("</{}>", element)))
+        << element;
+  EXPECT_EQ(countOf(page, "data-chart=\"accuracy\""), 2u);
+  EXPECT_NE(page.find("Pareto-optimal: ka=1, ka=2, ka=4, ka=8, ka=16."), std::string::npos);
+  EXPECT_NE(page.find("Where the time of a frame goes"), std::string::npos);
+  // The matrix is symmetric: a pair stands twice, next to its ratio.
+  EXPECT_EQ(countOf(page, "class=\"heat\""), 15u);  // 9 of the ratio, 6 of the sums
+}
+
+TEST(HtmlReport, ATableNobodyKnowsIsAPlainTable) {
+  const std::string page = htmlReport(SampleRun().results(), {}, "results.json");
+  const std::string section = page.substr(page.find("<h2 id=\"some_new_table\">"));
+  EXPECT_NE(section.find("<details open>"), std::string::npos);
+  EXPECT_NE(section.find("a &lt;b&gt; &amp; &quot;c&quot;"), std::string::npos);
+}
+
+TEST(HtmlReport, MissingPicturesAreSaidInTheirPlace) {
+  const std::string page = htmlReport(SampleRun().results(), {}, "results.json");
+  for (const char* name : {"cells_snow_steep.png", "cells_car_steep.png",
+                           "tao21_area_cloth_near.png", "msbrdf_energy.png"})
+    EXPECT_NE(page.find(std::string(name) + " is not in the folder"), std::string::npos) << name;
+  const ReportPicture broken{"other.png", "", "cannot read <it>", {}};
+  EXPECT_NE(htmlReport(sampleResults(), {&broken, 1}, "r").find("cannot read &lt;it&gt;"),
+            std::string::npos);
+}
+
+TEST(HtmlReport, PicturesThatWouldMakeItTooLargeAreLeftOut) {
+  const std::vector<ReportPicture> pictures = {{"first.png", std::string(3'000'000, 'a'), "", {}},
+                                               {"second.png", std::string(6'000'000, 'b'), "", {}}};
+  const std::string page = htmlReport(sampleResults(), pictures, "results.json");
+  EXPECT_LT(page.size(), kMostPageBytes);
+  EXPECT_EQ(countOf(page, "data:image/png"), 1u);
+  EXPECT_NE(page.find("second.png is left out"), std::string::npos);
+}
+
+TEST(HtmlReport, HistogramsAreReadBackFromHeatmaps) {
+  Image cells(330, 20, 1);
+  for (int x = 0; x < cells.width; ++x)
+    for (int y = 0; y < cells.height; ++y)
+      cells.at(x, y)[0] = x < 57 ? static_cast<float>(8 + x) : (x % 2 == 0 ? -1.0f : 0.0f);
+  Image picture = heatmapPicture(cells, {});
+  for (float& value : picture.pixels) value = std::round(value * 255) / 255;  // as a PNG has it
+  const CellDistribution read = heatmapDistribution(picture), truth = cellDistribution(cells);
+  EXPECT_EQ(read.pixels_by_count, truth.pixels_by_count);
+  EXPECT_EQ(read.mean, truth.mean);
+  EXPECT_EQ(countOf(histogramSvg(read), "<rect"), 57u);
+  EXPECT_EQ(histogramSvg(cellDistribution(Image(0, 0, 1))), "");
 }
 
 }  // namespace

@@ -69,6 +69,37 @@ TEST(RecordLog, CutOffLastLineIsDropped) {
   EXPECT_EQ(log.records()[1].case_, "a/c");
 }
 
+// Cut off at each of its bytes, as a kill may do it: whole batches remain, no part of one.
+TEST(RecordLog, CutAnywhereABatchIsThereWholeOrNotAtAll) {
+  const TempFolder folder;
+  const std::vector<Record> first = {sampleRecord("a/b", "m", 1), sampleRecord("a/b", "n", 2)};
+  const std::vector<Record> second = {sampleRecord("a/c", "m", 3), sampleRecord("a/c", "n", 4),
+                                      sampleRecord("a/c", "o", 5)};
+  std::vector<std::size_t> ends;
+  {
+    RecordLog log = RecordLog::create(folder / "a.jsonl", sampleRun());
+    log.append(first);
+    ends.push_back(readTextFile(folder / "a.jsonl").size());
+    log.append(second);
+    ends.push_back(readTextFile(folder / "a.jsonl").size());
+  }
+  const std::string whole = readTextFile(folder / "a.jsonl");
+  for (std::size_t size = 0; size <= whole.size(); ++size) {
+    const std::string text = whole.substr(0, size);
+    const std::size_t expected = size < ends[0] ? 0 : size < ends[1] ? 2 : 5;
+    EXPECT_EQ(parseLog(text, "log").records.size(), expected) << size;
+    if (size % 97 != 0) continue;  // what is appended afterwards, at some of them
+    writeFile(folder / "cut.jsonl", text);
+    {
+      RecordLog log = RecordLog::resume(folder / "cut.jsonl", sampleRun());
+      ASSERT_EQ(log.records().size(), expected);
+      if (expected < 2) log.append(first);
+      if (expected < 5) log.append(second);
+    }
+    EXPECT_EQ(readTextFile(folder / "cut.jsonl"), whole) << size;
+  }
+}
+
 TEST(RecordLog, DamageBeforeTheLastLineIsAnError) {
   const TempFolder folder;
   writeFile(folder / "a.jsonl", headerLine(sampleRun()) + "\n{\"table\":\n" +
@@ -105,11 +136,12 @@ TEST(RecordLog, MissingOrEmptyLogStartsAfresh) {
   EXPECT_EQ(readTextFile(folder / "cut.jsonl"), headerLine(sampleRun()) + "\n");
 }
 
-TEST(RecordLog, CreateReplacesAnOldLog) {
+TEST(RecordLog, CreateKeepsAnOldLogUnderAnotherName) {
   const TempFolder folder;
   writeFile(folder / "a.jsonl", "old");
   { RecordLog::create(folder / "a.jsonl", sampleRun()); }
   EXPECT_EQ(readTextFile(folder / "a.jsonl"), headerLine(sampleRun()) + "\n");
+  EXPECT_EQ(readTextFile(folder / "a.jsonl.old"), "old");
 }
 
 TEST(RecordLog, FullDiskIsAnError) {

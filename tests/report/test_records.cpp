@@ -62,7 +62,7 @@ TEST(Records, LinesRoundTripAndHaveNoNewline) {
   const Results results = sampleResults();
   const std::string line = recordLine(results.records[1]);
   EXPECT_EQ(line.find('\n'), std::string::npos);
-  expectEqual(parseRecordLine(line, "line"), results.records[1]);
+  expectEqual(parseRecordLine(line, "line").record, results.records[1]);
   EXPECT_EQ(parseHeaderLine(headerLine(results.run), "line").device, "cpu-device");
 }
 

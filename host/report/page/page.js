@@ -1,43 +1,261 @@
-// Draws the charts of the page from the records in it. Tables and pictures need no script.
+// Draws the charts of the page from the records in it and makes its picture strips comparable.
+// Tables, bars, histograms and pictures need no script. What came out is written to data attributes
+// of the root element, which the tests read: charts, drawn, errors, overflow, background.
 "use strict";
 (() => {
+  const root = document.documentElement;
+  const errors = [];
+  window.addEventListener("error", (event) => {
+    errors.push(event.message);
+    root.dataset.errors = errors.length;
+  });
+
   const records = JSON.parse(document.getElementById("records").textContent);
-  const style = getComputedStyle(document.documentElement);
-  const colour = (name) => style.getPropertyValue(name).trim();
-  const palette = ["#0b6e75", "#d1792b", "#6a51a3", "#2c7fb8", "#b3446c", "#7a8b2c", "#555f69"];
-  Chart.defaults.color = colour("--soft");
-  Chart.defaults.borderColor = colour("--line");
+  const colour = (name) => getComputedStyle(root).getPropertyValue(name).trim();
+  const palette = ["#2b8cbe", "#d1792b", "#8c6bb1", "#3a9d6b", "#c2527f", "#a08a1f", "#7b8794", "#c0503c", "#4c6fd1", "#6b9e2f"];
+  const charts = [];
+
+  const setTheme = () => {
+    Chart.defaults.color = colour("--soft");
+    Chart.defaults.borderColor = colour("--line");
+    Chart.defaults.font.family = getComputedStyle(document.body).fontFamily;
+  };
   Chart.defaults.animation = false;
   Chart.defaults.maintainAspectRatio = false;
+  Chart.defaults.datasets.line.borderWidth = 2;
 
-  const value = (table, name, metric) => {
-    const found = records.find((r) => r.table === table && r.case === name && r.metric === metric);
-    return found ? found.median : null;
+  // 1, 2 and 5 times powers of ten, without exponents where that is short.
+  const logTick = (value) => {
+    const digit = value / 10 ** Math.floor(Math.log10(value) + 1e-9);
+    if (![1, 2, 5].some((d) => Math.abs(digit - d) < 1e-6)) return "";
+    return value >= 1e-3 && value < 1e5 ? String(+value.toPrecision(3)) : value.toExponential(0);
   };
-  const unique = (list) => [...new Set(list)];
+  const logAxis = (text, values) => ({
+    type: "logarithmic",
+    min: Math.min(...values) * 0.7,
+    max: Math.max(...values) * 1.5,
+    title: { display: true, text },
+    ticks: { callback: logTick, maxRotation: 0, autoSkipPadding: 12 },
+  });
+  const short = (value) => String(+value.toPrecision(3));
 
-  // Where a frame's time goes, one bar per view.
-  const drawBreakdown = (canvas) => {
-    const table = canvas.dataset.table;
-    const parts = ["raster_ms", "upload_ms", "frame_without_ms", "shading_ms", "readback_ms"];
-    const names = ["rasterizing", "upload", "smooth lobes", "glints", "readback"];
-    const cases = unique(records.filter((r) => r.table === table).map((r) => r.case));
-    new Chart(canvas, {
-      type: "bar",
-      data: {
-        labels: cases,
-        datasets: parts.map((part, i) => ({
-          label: names[i],
-          data: cases.map((name) => value(table, name, part)),
-          backgroundColor: palette[i],
-        })),
-      },
+  // Names beside the Pareto points, each moved up until it meets no other.
+  const pointNames = {
+    id: "pointNames",
+    afterDatasetsDraw(chart) {
+      const at = chart.data.datasets.findIndex((set) => set.pareto);
+      if (at < 0) return;
+      const { ctx, chartArea: area } = chart;
+      const boxes = [];
+      ctx.save();
+      ctx.font = `600 12px ${Chart.defaults.font.family}`;
+      ctx.textBaseline = "middle";
+      chart.getDatasetMeta(at).data.forEach((point, i) => {
+        const name = chart.data.datasets[at].data[i].name;
+        const width = ctx.measureText(name).width;
+        let x = point.x + 9;
+        if (x + width > area.right) x = Math.max(area.left, point.x - 9 - width);
+        const meets = (y) => boxes.some((b) => x < b.right && x + width > b.left && Math.abs(y - b.y) < 14);
+        let y = point.y - 9;
+        for (let step = 1; meets(y) && step < 30; ++step) y = point.y - 9 + (step % 2 ? -7 : 7) * (step + 1);
+        y = Math.min(Math.max(y, area.top + 8), area.bottom - 8);
+        boxes.push({ left: x, right: x + width, y });
+        ctx.strokeStyle = colour("--panel");
+        ctx.lineWidth = 4;
+        ctx.lineJoin = "round";
+        ctx.strokeText(name, x, y);
+        ctx.fillStyle = colour("--ink");
+        ctx.fillText(name, x, y);
+      });
+      ctx.restore();
+    },
+  };
+
+  // Cases "effect/knob=value": error over time, a series per knob, the front on top.
+  const accuracyChart = (canvas) => {
+    const points = new Map();
+    for (const r of records) {
+      if (r.table !== "accuracy" || !r.case.startsWith(canvas.dataset.effect + "/")) continue;
+      const name = r.case.slice(canvas.dataset.effect.length + 1);
+      if (!points.has(name)) points.set(name, { name, knob: name.split("=")[0] });
+      const point = points.get(name);
+      point[r.metric] = r.median;
+      if (r.config && r.config.role === "rival") point.rival = true;
+    }
+    const all = [...points.values()]
+      .filter((p) => p.time_ratio > 0 && p.error > 0)
+      .map((p) => ({ ...p, x: p.time_ratio, y: p.error }));
+    const front = all.filter((p) => p.pareto === 1).sort((a, b) => a.x - b.x);
+    const knobs = [...new Set(all.map((p) => p.knob))];
+    const datasets = [{
+      label: "Pareto front", data: front, pareto: true, showLine: true, borderColor: colour("--ink"),
+      borderWidth: 1.5, borderDash: [5, 4], pointRadius: 9, pointHoverRadius: 9, pointBorderWidth: 1.5,
+      pointBackgroundColor: "transparent", pointBorderColor: colour("--ink"), order: 1,
+    }];
+    knobs.forEach((knob, i) => {
+      const data = all.filter((p) => p.knob === knob);
+      const rival = data.some((p) => p.rival);
+      datasets.push({
+        label: rival ? `${knob} (rival)` : knob, data, showLine: data.length > 2, borderWidth: 1.5,
+        borderColor: palette[i % palette.length], backgroundColor: palette[i % palette.length],
+        pointRadius: 5, pointHoverRadius: 7, pointStyle: rival ? "rectRot" : "circle", order: 2,
+      });
+    });
+    const noise = all.map((p) => p.truth_stderr).filter((s) => s > 0).sort((a, b) => a - b);
+    if (noise.length > 0 && all.length > 0) {
+      const y = noise[Math.floor(noise.length / 2)];
+      const xs = all.map((p) => p.x);
+      datasets.push({
+        label: "standard error of the truth", showLine: true, pointRadius: 0, borderDash: [2, 3], borderWidth: 1,
+        data: [Math.min(...xs), Math.max(...xs)].map((x) => ({ x, y, name: "standard error of the truth" })),
+        borderColor: colour("--soft"), backgroundColor: "transparent", order: 3,
+      });
+    }
+    return {
+      type: "scatter",
+      data: { datasets },
+      plugins: [pointNames],
       options: {
-        indexAxis: "y",
-        scales: { x: { stacked: true, title: { display: true, text: "ms" } }, y: { stacked: true } },
+        scales: {
+          x: logAxis("time over the default's", all.map((p) => p.x)),
+          y: logAxis("error", [...all.map((p) => p.y), ...noise]),
+        },
+        plugins: {
+          legend: { position: "bottom", labels: { usePointStyle: true, boxHeight: 7 } },
+          tooltip: {
+            callbacks: {
+              label: ({ raw }) => `${raw.name}: error ${short(raw.y)} in ${short(raw.x)} of the default's time`,
+            },
+          },
+        },
       },
+    };
+  };
+
+  // Figures of cases that begin with a prefix, over the number behind it.
+  const curveChart = (canvas) => {
+    const { table, prefix, unit } = canvas.dataset;
+    const datasets = canvas.dataset.metrics.split(" ").map((metric, i) => ({
+      label: metric,
+      data: records
+        .filter((r) => r.table === table && r.metric === metric && r.case.startsWith(prefix) && r.median !== null)
+        .map((r) => ({ x: Number(r.case.slice(prefix.length)), y: r.median }))
+        .filter((p) => Number.isFinite(p.x))
+        .sort((a, b) => a.x - b.x),
+      borderColor: palette[i % palette.length],
+      backgroundColor: palette[i % palette.length],
+      pointRadius: 4,
+    }));
+    const knob = prefix.slice(0, -1).split("/");
+    return {
+      type: "line",
+      data: { datasets },
+      options: {
+        scales: {
+          x: { type: "linear", title: { display: true, text: knob[knob.length - 1] } },
+          y: { beginAtZero: true, title: { display: unit !== "", text: unit } },
+        },
+        plugins: {
+          title: { display: true, text: canvas.getAttribute("aria-label"), color: colour("--ink") },
+          legend: { display: datasets.length > 1, position: "bottom", labels: { usePointStyle: true, boxHeight: 7 } },
+        },
+      },
+    };
+  };
+
+  const makers = { accuracy: accuracyChart, curve: curveChart };
+  const draw = () => {
+    charts.splice(0).forEach((chart) => chart.destroy());
+    setTheme();
+    document.querySelectorAll("canvas[data-chart]").forEach((canvas) => {
+      charts.push(new Chart(canvas, makers[canvas.dataset.chart](canvas)));
     });
   };
 
-  document.querySelectorAll("canvas[data-chart=breakdown]").forEach(drawBreakdown);
+  // A strip of equally wide pictures below their names: any two of them on one canvas, parted where
+  // the range stands.
+  const kNameHeight_px = 12;
+  const makeComparable = (figure) => {
+    const image = figure.querySelector("img");
+    const names = figure.dataset.panels.split(";");
+    const width = image ? image.naturalWidth / names.length : 0;
+    const height = image ? image.naturalHeight - kNameHeight_px : 0;
+    if (names.length < 2 || width < 1 || width !== Math.floor(width) || height < 1) return;
+    const canvas = document.createElement("canvas");
+    canvas.width = width;
+    canvas.height = height;
+    canvas.setAttribute("role", "img");
+    const choice = (chosen, label) => {
+      const select = document.createElement("select");
+      select.setAttribute("aria-label", label);
+      names.forEach((name, i) => select.add(new Option(name, i, i === chosen, i === chosen)));
+      return select;
+    };
+    const left = choice(0, "left picture");
+    const truth = names.indexOf("truth");
+    const right = choice(truth > 0 ? truth : 1, "right picture");
+    const range = document.createElement("input");
+    range.type = "range";
+    range.max = 100;
+    range.value = 50;
+    range.setAttribute("aria-label", "where the left picture ends");
+    const show = () => {
+      const context = canvas.getContext("2d");
+      const edge = Math.round((width * range.value) / 100);
+      const part = (panel, from, to) => {
+        if (to > from)
+          context.drawImage(image, panel * width + from, kNameHeight_px, to - from, height, from, 0, to - from, height);
+      };
+      part(Number(left.value), 0, edge);
+      part(Number(right.value), edge, width);
+      context.fillStyle = "#fff";
+      context.fillRect(edge - 0.5, 0, 1, height);
+      canvas.setAttribute("aria-label", `${names[left.value]} left, ${names[right.value]} right, ${range.value} percent`);
+    };
+    [left, right, range].forEach((control) => control.addEventListener("input", show));
+    canvas.addEventListener("pointermove", (event) => {
+      if (event.pointerType === "mouse" || event.buttons) {
+        range.value = (100 * event.offsetX) / canvas.clientWidth;
+        show();
+      }
+    });
+    const slider = document.createElement("div");
+    slider.className = "slider";
+    slider.append(left, range, right);
+    image.after(canvas, slider);
+    figure.classList.add("live");
+    show();
+  };
+
+  const isDrawn = (canvas) => {
+    const { width, height } = canvas;
+    if (width === 0 || height === 0) return false;
+    const pixels = canvas.getContext("2d").getImageData(0, 0, width, height).data;
+    for (let i = 3; i < pixels.length; i += 4) if (pixels[i] !== 0) return true;
+    return false;
+  };
+
+  const check = () => {
+    root.dataset.errors = errors.length;
+    root.dataset.charts = charts.length;
+    root.dataset.drawn = charts.filter((chart) => isDrawn(chart.canvas)).length;
+    root.dataset.sliders = document.querySelectorAll(".slider input").length;
+    root.dataset.overflow = Math.max(0, root.scrollWidth - root.clientWidth);
+    root.dataset.background = getComputedStyle(document.body).backgroundColor;
+  };
+
+  draw();
+  const figures = [...document.querySelectorAll("figure[data-panels]")];
+  Promise.all(figures.map(async (figure) => {
+    const image = figure.querySelector("img");
+    if (image && !image.complete) await new Promise((done) => { image.onload = image.onerror = done; });
+    makeComparable(figure);
+  })).then(check);
+  window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", draw);
+  const drawForPaper = (printing) => {
+    root.classList.toggle("printing", printing);
+    draw();
+  };
+  window.addEventListener("beforeprint", () => drawForPaper(true));
+  window.addEventListener("afterprint", () => drawForPaper(false));
 })();

@@ -1,0 +1,26 @@
+// One run at a time in a results folder.
+#pragma once
+#include <filesystem>
+
+namespace glintmark {
+
+/// Holds the file `.lock` in a folder locked (flock) as long as it lives. The system frees the lock
+/// of a program that was killed, so a file left behind stands in nobody's way.
+class FolderLock {
+ public:
+  /// Throws Error naming the process that holds the lock, or if the file cannot be made. On file
+  /// systems without locks it does nothing.
+  explicit FolderLock(const std::filesystem::path& folder);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  std::filesystem::path file_;
+  int descriptor_ = -1;
+};
+
+/// Removes the temporary files of AtomicFile that processes which are no more have left in a folder.
+void removeAbandonedFiles(const std::filesystem::path& folder);
+
+}  // namespace glintmark

@@ -1,0 +1,52 @@
+#include "host/report/folder_lock.h"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "host/core/error.h"
+#include "host/report/atomic_file.h"
+#include "tests/report/temp_folder.h"
+
+namespace glintmark {
+namespace {
+
+TEST(FolderLock, OneHolderAtATime) {
+  const TempFolder folder;
+  {
+    const FolderLock lock(folder.path());
+    const std::string message = messageOf<Error>([&] { FolderLock again(folder.path()); });
+    EXPECT_NE(message.find("process " + std::to_string(getpid())), std::string::npos) << message;
+  }
+  EXPECT_EQ(folder.entryCount(), 0u);
+  const FolderLock again(folder.path());
+}
+
+TEST(FolderLock, AFileThatAKilledRunLeftIsNoLock) {
+  const TempFolder folder;
+  const pid_t child = fork();
+  if (child == 0) {
+    const FolderLock lock(folder.path());
+    _exit(0);  // without destructors, as a kill ends it
+  }
+  ASSERT_EQ(waitpid(child, nullptr, 0), child);
+  EXPECT_EQ(folder.entryCount(), 1u);
+  const FolderLock lock(folder.path());
+}
+
+TEST(FolderLock, OnlyFilesOfTheDeadAreRemoved) {
+  const TempFolder folder;
+  const pid_t child = fork();
+  if (child == 0) _exit(0);
+  ASSERT_EQ(waitpid(child, nullptr, 0), child);
+  const std::string dead = ".results.json." + std::to_string(child) + ".tmp",
+                    own = ".results.json." + std::to_string(getpid()) + ".tmp";
+  for (const std::string& name : {dead, own, std::string(".other.tmp"), std::string("a.1x.tmp")})
+    writeFile(folder / name, "x");
+  removeAbandonedFiles(folder.path());
+  EXPECT_FALSE(std::filesystem::exists(folder / dead));
+  EXPECT_EQ(folder.entryCount(), 3u);
+}
+
+}  // namespace
+}  // namespace glintmark
