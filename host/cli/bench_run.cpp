@@ -84,13 +84,21 @@ void BenchRun::measureCases(const std::string& table, const std::vector<std::str
     progress.show(static_cast<int>(i), static_cast<int>(cases.size()), table + " " + cases[i]);
     std::vector<Record> measured = loggedCase(table, cases[i], metrics);
     if (measured.empty()) {
+      const auto kept = [&] {
+        return Interrupted(fmt::format(
+            "interrupted; {} of {} cases of table {} are kept in {}, --resume carries on", i,
+            cases.size(), table, (folder_ / "records.jsonl").string()));
+      };
       try {
         stopIfInterrupted();
         measured = measure(cases[i]);
       } catch (const Interrupted&) {
-        throw Interrupted(fmt::format(
-            "interrupted; {} of {} cases of table {} are kept in {}, --resume carries on", i,
-            cases.size(), table, (folder_ / "records.jsonl").string()));
+        throw kept();
+      } catch (const Error&) {
+        // A compiler inside the OpenCL runtime may drop its files at Ctrl-C: no fault of the
+        // kernel.
+        if (InterruptGuard::interrupted()) throw kept();
+        throw;
       }
       log_.append(measured);
     }

@@ -143,7 +143,7 @@ const std::vector<std::pair<Effect, std::vector<std::string>>>& effectFunctions(
       {Effect::kGlints, {"glintRatio", "hashDirection", "makeFootprint", "microdetailRatio"}},
       {Effect::kGrooves, {"grooveDensity"}},
       {Effect::kColour, {"colourWheel", "cellColour"}},
-      {Effect::kNormals, {"filterNormals", "evaluateMappedLight", "evaluateLobe", "lobeFromM"}},
+      {Effect::kNormals, {"filterNormals", "evaluateMappedLight", "evaluateShape", "lobeFromM"}},
       {Effect::kLtc, {"shadeAreaLights", "lookUpLtc", "seeLight", "loadLitPoint"}},
       {Effect::kMultiscale, {"footprintAlpha", "fetchMeanNormal"}},
       {Effect::kMultiscatter, {"addScattered", "scatterLight", "scatterView"}},
