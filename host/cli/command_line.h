@@ -42,6 +42,7 @@ void addSimulateCommand(CLI::App& app, CommandLine& line);
 void addFitCommand(CLI::App& app, CommandLine& line);
 void addCompareCommand(CLI::App& app, CommandLine& line);
 void addReportCommand(CLI::App& app, CommandLine& line);
+void addVerifyCommand(CLI::App& app, CommandLine& line);
 
 struct ImageSize {
   int width_px = 1920, height_px = 1080;

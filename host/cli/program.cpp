@@ -118,6 +118,7 @@ int runProgram(int argc, const char* const* argv) {
   addFitCommand(app, line);
   addCompareCommand(app, line);
   addReportCommand(app, line);
+  addVerifyCommand(app, line);
   for (CLI::App* command : app.get_subcommands(nullptr)) command->fallthrough();
 
   try {

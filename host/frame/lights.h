@@ -8,7 +8,7 @@
 namespace glintmark {
 
 /// Up to this half-angle [rad] a light is one tap: to first order half vectors move linearly with
-/// the light, which is good to 1 % of the lobe up to here (tests/glint/test_light_cones.cpp).
+/// the light, which is good to 1 % of the lobe up to here (host/verify/energy_checks.cpp).
 inline constexpr double kOneTapHalfAngle_rad = 0.1;
 /// Wider lights are cut into taps of this half-angle. Grazing views decide: 0.1 would leave errors
 /// of 20 % of the brightest highlight under a light as wide as the sky, 0.07 leaves 6 %.

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "host/frame/frame_renderer.h"
-#include "tests/frame/test_scenes.h"
+#include "host/verify/small_scenes.h"
 
 namespace glintmark {
 

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "host/reference/footprint.h"
-#include "tests/glint/pixel_harness.h"
-#include "tests/glint/random_pixels.h"
+#include "host/verify/pixel_harness.h"
+#include "host/verify/random_pixels.h"
 
 namespace glintmark {
 namespace {
@@ -31,15 +31,6 @@ ShadedPixels visit(const HandMadeFrame& frame, GlintMethod method, int ka = 16) 
   config.size_variation = false;
   config.count_cells = true;
   return shadePixels(frame, config);
-}
-
-TEST(CellsZk16, From8To64CellsForEveryFootprint) {
-  // [ZK16] Sect. 5: from 8 to 64 at K_a = 16. Footprints up to beyond the limit, of any size.
-  const HandMadeFrame frame = frameOf(randomPixels(20000, {1e-5, 1, 200}));
-  const ShadedPixels shaded = visit(frame, GlintMethod::kZk16);
-  EXPECT_EQ(*std::ranges::min_element(shaded.cells), 8u);
-  EXPECT_EQ(*std::ranges::max_element(shaded.cells), 64u);
-  for (const std::uint32_t cells : shaded.cells) EXPECT_EQ(cells % 2, 0u);
 }
 
 TEST(CellsZk16, SquareFootprintsTakeFewAndLongOnesTheLimit) {

@@ -9,8 +9,6 @@
 #include <vector>
 
 #include "host/reference/seeds.h"
-#include "tests/glint/pixel_harness.h"
-#include "tests/glint/probes.h"
 
 namespace glintmark {
 namespace {
@@ -33,29 +31,6 @@ std::vector<std::int32_t> interestingIndices() {
   return indices;
 }
 
-TEST(Seeds, KernelMatchesTheProtocolAtEveryWidth) {
-  const std::vector<std::int32_t> u = interestingIndices();
-  std::vector<std::int32_t> v = u, ju(u.size()), jv(u.size());
-  std::ranges::reverse(v);
-  std::mt19937 random(8);
-  std::vector<reference::HalfVectorIndex> half(u.size());
-  for (std::size_t i = 0; i < u.size(); ++i) {
-    half[i] = {static_cast<std::int32_t>(random()) >> 4, static_cast<std::int32_t>(random()) >> 4};
-    const std::uint32_t seed = reference::cellSeed(u[i], v[i]);
-    ju[i] = (half[i].u + static_cast<std::int32_t>(seed & 0xFFFFu)) >> 16;
-    jv[i] = (half[i].v + static_cast<std::int32_t>(seed >> 16)) >> 16;
-  }
-  for (const int width : kAllWidths) {
-    const HashProbe probe = probeHash(u, v, ju, jv, width);
-    for (std::size_t i = 0; i < u.size(); ++i) {
-      ASSERT_EQ(static_cast<std::int32_t>(probe.coherent_u[i]), reference::coherentIndex(u[i]))
-          << u[i] << " width " << width;
-      ASSERT_EQ(probe.cell_seed[i], reference::cellSeed(u[i], v[i])) << u[i] << ", " << v[i];
-      ASSERT_EQ(probe.pair_seed[i], reference::pairSeed(probe.cell_seed[i], half[i])) << i;
-    }
-  }
-}
-
 TEST(Seeds, CoherentIndexIsOddAndInvariantUnderDoubling) {
   for (const std::int32_t i : interestingIndices()) {
     const std::int32_t c = reference::coherentIndex(i);
@@ -72,20 +47,6 @@ TEST(Seeds, CoherentIndexIsOddAndInvariantUnderDoubling) {
     std::int64_t doubled = c;
     while (std::abs(doubled) < std::abs(static_cast<std::int64_t>(i))) doubled *= 2;
     EXPECT_EQ(doubled, i);
-  }
-}
-
-TEST(Seeds, RandomNumbersMatchTheProtocol) {
-  std::vector<std::uint32_t> bits = {0, 1, 0x7FFFFFFFu, 0x80000000u, 0xFFFFFFFFu, 0xFF00FF00u};
-  std::mt19937 random(9);
-  for (int i = 0; i < 4096; ++i) bits.push_back(static_cast<std::uint32_t>(random()));
-  for (const int width : kAllWidths) {
-    const RandomProbe probe = probeRandom(bits, width);
-    for (std::size_t i = 0; i < bits.size(); ++i) {
-      EXPECT_NEAR(probe.uniform[i] / reference::uniformOf(bits[i]), 1.0, 0x1p-23);
-      EXPECT_GT(probe.uniform[i], 0.0f);
-      EXPECT_NEAR(probe.gauss[i], reference::gaussOf(bits[i]), 1e-6);
-    }
   }
 }
 

@@ -1,17 +1,16 @@
-// Lane counts and compile-time switches change nothing but the time: the same bits from every
-// program that may shade a pixel.
+// Compile-time switches change nothing but the time: the same bits from every program that may
+// shade a pixel.
 #include <gtest/gtest.h>
 #include <stdio.h>
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <ostream>
 #include <string>
 #include <vector>
 
-#include "tests/glint/pixel_harness.h"
-#include "tests/glint/random_pixels.h"
+#include "host/verify/pixel_harness.h"
+#include "host/verify/random_pixels.h"
 
 namespace glintmark {
 namespace {
@@ -37,45 +36,6 @@ void expectSameBits(const ShadedPixels& a, const ShadedPixels& b, const std::str
   for (std::size_t i = 0; i < a.radiance.size(); ++i) different += a.radiance[i] != b.radiance[i];
   EXPECT_EQ(different, 0u) << what << ", of " << a.radiance.size();
 }
-
-struct WidthCase {
-  const char* name;
-  GlintMethod method;
-  bool groove, colour, cone;
-};
-
-void PrintTo(const WidthCase& c, std::ostream* out) {
-  *out << c.name;
-}
-
-class Widths : public testing::TestWithParam<WidthCase> {};
-
-TEST_P(Widths, SameCountsDrawsAndRadiance) {
-  const WidthCase& c = GetParam();
-  HandMadeFrame frame = testFrame();
-  if (c.cone) frame.lights[0].direction.w = 0.05f;
-  KernelConfig config = baseConfig(1);
-  config.method = c.method;
-  config.groove = c.groove;
-  config.glint_colour = c.colour;
-  config.light_cone = c.cone;
-  config.count_cells = true;
-  const ShadedPixels one = shadePixels(frame, config);
-  for (const int width : {4, 8, 16}) {
-    config.width = width;
-    const ShadedPixels wide = shadePixels(frame, config);
-    EXPECT_EQ(one.cells, wide.cells) << width;
-    EXPECT_EQ(one.limited, wide.limited) << width;
-    expectSameBits(one, wide, "width " + std::to_string(width));
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P(
-    Kinds, Widths,
-    testing::Values(WidthCase{"zk16", GlintMethod::kZk16, false, false, false},
-                    WidthCase{"zk16_groove_colour_cone", GlintMethod::kZk16, true, true, true},
-                    WidthCase{"exact", GlintMethod::kExact, false, false, false}),
-    [](const auto& kind) { return std::string(kind.param.name); });
 
 TEST(Switches, CountingCellsKeepsTheImage) {
   for (const GlintMethod method : {GlintMethod::kZk16, GlintMethod::kExact}) {

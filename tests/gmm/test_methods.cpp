@@ -12,8 +12,8 @@
 #include "host/frame/effects.h"
 #include "host/frame/ground_truth.h"
 #include "host/report/metrics.h"
-#include "tests/frame/test_scenes.h"
-#include "tests/glint/pixel_harness.h"
+#include "host/verify/pixel_harness.h"
+#include "host/verify/small_scenes.h"
 
 namespace glintmark {
 namespace {

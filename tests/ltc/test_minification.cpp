@@ -8,9 +8,9 @@
 #include "host/filter/normal_map_generators.h"
 #include "host/frame/effects.h"
 #include "host/frame/ground_truth.h"
-#include "tests/frame/test_scenes.h"
-#include "tests/glint/pixel_harness.h"
-#include "tests/ltc/area_light_harness.h"
+#include "host/verify/area_light_harness.h"
+#include "host/verify/pixel_harness.h"
+#include "host/verify/small_scenes.h"
 
 namespace glintmark {
 namespace {

@@ -12,7 +12,7 @@
 
 #include "host/fit/multiscatter_data.h"
 #include "host/frame/multiscatter.h"
-#include "tests/glint/pixel_harness.h"
+#include "host/verify/pixel_harness.h"
 
 namespace glintmark {
 namespace {

@@ -1,7 +1,3 @@
-#include <array>
-#include <cstddef>
-
-#include "host/core/shared_types.h"
 #include "host/ocl/kernel_folder.h"
 #include "tests/ocl/ocl_test.h"
 
@@ -20,28 +16,6 @@ class ProbeTest : public ProbeKernelsTest {
   Device device_;
   ProgramCache cache_{device_};
 };
-
-template <std::size_t N>
-std::array<std::uint32_t, N> runProbe(Device& device, const Program& program, const char* kernel) {
-  Buffer out(device, N * 4, "probe output");
-  const KernelArg args[] = {out};
-  program.kernel(kernel).launch(args, 1, 1);
-  std::array<std::uint32_t, N> values{};
-  out.read(values.data(), N * 4);
-  return values;
-}
-
-TEST_F(ProbeTest, SharedStructsHaveTheHostsSizesAndOffsets) {
-  const Program probe = cache_.getWithOptions("probe.cl", "");
-  EXPECT_EQ(runProbe<kSharedTypeSizes.size()>(device_, probe, "probeTypeSizes"), kSharedTypeSizes);
-  constexpr std::array<std::uint32_t, 10> kOffsets = {
-      offsetof(GlintMaterial, alpha_l),       offsetof(GlintMaterial, density),
-      offsetof(GlintMaterial, palette_count), offsetof(GlintMaterial, f0),
-      offsetof(GlintMaterial, palette),       offsetof(ConeLight, irradiance),
-      offsetof(LightParams, variance),        offsetof(LightParams, tap_count),
-      offsetof(FrameParams, light_count),     offsetof(FrameParams, plane_stride)};
-  EXPECT_EQ(runProbe<kOffsets.size()>(device_, probe, "probeTypeOffsets"), kOffsets);
-}
 
 TEST_F(ProbeTest, PeaksArePlausible) {
   for (const int lanes : {1, device_.info().default_lanes}) {

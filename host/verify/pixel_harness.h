@@ -2,12 +2,15 @@
 #pragma once
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "host/core/frame_packing.h"
 #include "host/core/shared_types.h"
+#include "host/frame/multiscatter.h"
 #include "host/ocl/compute.h"
 #include "host/ocl/device.h"
 #include "host/reference/pixel.h"
@@ -17,13 +20,14 @@ namespace glintmark {
 /// Widths that every property of the kernels is checked at.
 inline constexpr int kAllWidths[] = {1, 4, 8, 16};
 
-/// The device under test and its program cache, which lives in the build folder so that the test
-/// programs share what they compile.
+/// The device under test and its programs, one for the whole process: shared() opens the default
+/// device unless open() chose another before it.
 struct KernelBench {
-  KernelBench();
+  explicit KernelBench(Device opened) : device(std::move(opened)), cache(device) {}
   Device device;
   ProgramCache cache;
 
+  static KernelBench& open(Device device);
   static KernelBench& shared();
 };
 
@@ -40,6 +44,8 @@ struct HandMadeFrame {
   glm::dvec3 ray_origin{0, 0, -1}, ray_dx{0}, ray_dy{0};  // away from the eye
   GlintMaterial material{};
   std::vector<ConeLight> lights;
+  /// Of kernels with multiple scattering or metal compensation.
+  std::optional<MultiscatterMaterial> scatter{};
 };
 
 struct ShadedPixels {
@@ -69,7 +75,7 @@ reference::Glints referenceGlints(const GlintMaterial& material, bool groove = f
 reference::SurfacePixel referencePixel(const HandMadeFrame& frame, const HandMadePixel& pixel);
 std::vector<reference::PointLight> referenceLights(const HandMadeFrame& frame);
 
-/// A kernel of tests/glint/<file> with the given switches of config.clh.
+/// A kernel of kernels/<file> with the given switches of config.clh.
 Kernel probeKernel(const std::string& file, const std::string& name, const std::string& switches);
 
 }  // namespace glintmark

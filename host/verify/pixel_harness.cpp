@@ -1,14 +1,8 @@
-#include "tests/glint/pixel_harness.h"
-
-#include <fmt/format.h>
-#include <stdlib.h>
+#include "host/verify/pixel_harness.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <fstream>
-#include <functional>
-#include <sstream>
 
 #include "host/core/error.h"
 #include "host/core/planes.h"
@@ -78,15 +72,20 @@ glm::dvec3 toDouble(const float4& v) {
 
 }  // namespace
 
-KernelBench::KernelBench() : device(), cache(device) {}
+namespace {
+
+// Lives as long as the program: drivers dislike late teardown.
+KernelBench* the_bench = nullptr;
+
+}  // namespace
+
+KernelBench& KernelBench::open(Device device) {
+  the_bench = new KernelBench(std::move(device));
+  return *the_bench;
+}
 
 KernelBench& KernelBench::shared() {
-  static KernelBench* bench = [] {
-    setenv("GLINTMARK_CACHE_DIR", GLINTMARK_BINARY_DIR "/test_cache/programs", 0);
-    setenv("POCL_CACHE_DIR", GLINTMARK_BINARY_DIR "/test_cache/pocl", 1);
-    return new KernelBench;  // lives as long as the program: drivers dislike late teardown
-  }();
-  return *bench;
+  return the_bench ? *the_bench : open(Device());
 }
 
 ShadedPixels shadePixels(const HandMadeFrame& frame, KernelConfig config) {
@@ -103,9 +102,9 @@ ShadedPixels shadePixels(const HandMadeFrame& frame, KernelConfig config) {
   std::vector<KernelArg> args = {upload(device, planeWords(frame, config.planes, stride)),
                                  upload(device, std::vector{paramsOf(frame, stride)}),
                                  upload(device, std::vector{frame.material}),
-                                 upload(device, lights.lights),
-                                 upload(device, lights.taps),
-                                 radiance};
+                                 upload(device, lights.lights), upload(device, lights.taps)};
+  if (frame.scatter) args.emplace_back(upload(device, std::vector{*frame.scatter}));
+  args.emplace_back(radiance);
   if (config.count_cells) args.emplace_back(counts);
   const auto lanes = static_cast<std::size_t>(config.width);
   KernelBench::shared()
@@ -165,7 +164,7 @@ glm::dvec2 deviceStretch(const GlintMaterial& material) {
       {material.alpha_g.x, material.alpha_g.y, material.alpha_l.x, material.alpha_l.y}};
   Buffer out(device, 8, "stretch");
   const KernelArg args[] = {upload(device, alphas), out, std::uint32_t{1}};
-  probeKernel("glint_probes.cl", "probeStretch", "-D WIDTH=1").launch(args, 1, kLocalSize);
+  probeKernel("probe_glint.cl", "probeStretch", "-D WIDTH=1").launch(args, 1, kLocalSize);
   float2 stretch;
   out.read(&stretch, 8);
   return {stretch.x, stretch.y};
@@ -205,14 +204,7 @@ std::vector<reference::PointLight> referenceLights(const HandMadeFrame& frame) {
 }
 
 Kernel probeKernel(const std::string& file, const std::string& name, const std::string& switches) {
-  const std::string path = std::string(GLINTMARK_SOURCE_DIR "/tests/glint/") + file;
-  // The caches look at the kernel folder only; the text's hash makes them see changes here.
-  std::stringstream text;
-  text << std::ifstream(path).rdbuf();
-  const std::string options =
-      fmt::format("{} -D PROBE_SOURCE={}u", switches,
-                  static_cast<std::uint32_t>(std::hash<std::string>()(text.str())));
-  return KernelBench::shared().cache.getWithOptions(path, options).kernel(name);
+  return KernelBench::shared().cache.getWithOptions(file, switches).kernel(name);
 }
 
 }  // namespace glintmark

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "tests/glint/pixel_harness.h"
+#include "host/verify/pixel_harness.h"
 
 namespace glintmark {
 

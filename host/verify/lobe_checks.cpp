@@ -1,6 +1,5 @@
 // Lobes of normals: closed-form interpolation and shading against double precision.
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <bit>
@@ -8,21 +7,12 @@
 #include <random>
 
 #include "host/reference/normal_lobe.h"
-#include "tests/glint/pixel_harness.h"
-#include "tests/gmm/texture_harness.h"
+#include "host/verify/check_groups.h"
+#include "host/verify/pixel_harness.h"
+#include "host/verify/tolerances.h"
 
 namespace glintmark {
 namespace {
-
-/// Second moments near 1 in single precision.
-constexpr double kVarianceTolerance = 4e-7;
-constexpr double kMeanTolerance = 1e-6;
-/// Relative: the rational fit of Smith's Lambda is good to 0.35 % of G1, here for light and view.
-constexpr double kMaskingTolerance = 7e-3;
-/// Relative, of cosines: some ten roundings.
-constexpr double kCosineTolerance = 1e-5;
-/// Brightness below which a difference does not show: the peak of the base lobe is above 1.
-constexpr double kDark = 1e-4;
 
 struct LobeCase {
   glm::vec4 moments;
@@ -33,7 +23,7 @@ struct ProbedLobe {
   float weight, mean_x, mean_y, variance, specular, cosine;
 };
 
-std::vector<ProbedLobe> probe(const std::vector<LobeCase>& cases, float alpha, int width) {
+std::vector<ProbedLobe> probe(const std::vector<LobeCase>& cases, float alpha, int lanes) {
   Device& device = KernelBench::shared().device;
   const std::size_t n = (cases.size() + 15) / 16 * 16;
   std::vector<float> in(10 * n), out(6 * n);
@@ -46,11 +36,10 @@ std::vector<ProbedLobe> probe(const std::vector<LobeCase>& cases, float alpha, i
   Buffer input(device, in.size() * 4, "lobes"), output(device, out.size() * 4, "shaded lobes");
   input.write(in.data(), in.size() * 4);
   const std::vector<KernelArg> args = {input, output, static_cast<std::uint32_t>(n), alpha};
-  gmmProbeKernel("lobe_probe.cl", "probeLobe",
-                 fmt::format("-D WIDTH={} -D DIFFUSE=1 -D NORMAL_MAP=1 -D NORMAL_METHOD=5 "
-                             "-D LOBES=1",
-                             width))
-      .launch(args, n / static_cast<std::size_t>(width), 16);
+  probeKernel(
+      "probe_lobe.cl", "probeLobe",
+      fmt::format("-D WIDTH={} -D DIFFUSE=1 -D NORMAL_MAP=1 -D NORMAL_METHOD=5 -D LOBES=1", lanes))
+      .launch(args, n / static_cast<std::size_t>(lanes), 16);
   output.read(out.data(), out.size() * 4);
   std::vector<ProbedLobe> result;
   for (std::size_t i = 0; i < cases.size(); ++i)
@@ -82,47 +71,49 @@ std::vector<LobeCase> randomCases(std::size_t n) {
   return cases;
 }
 
-TEST(Lobes, MatchTheReference) {
+// Every quantity in units of its own bound.
+Finding matchesReference(int lanes) {
   const std::vector<LobeCase> cases = randomCases(2000);
+  Finding finding(1);
   for (const float alpha : {0.05f, 0.25f, 0.8f}) {
-    const auto probed = probe(cases, alpha, 16);
+    const auto probed = probe(cases, alpha, lanes);
     for (std::size_t i = 0; i < cases.size(); ++i) {
+      const ProbedLobe& p = probed[i];
       const reference::NormalLobe lobe = reference::lobeFromMoments(glm::dvec4(cases[i].moments));
-      EXPECT_NEAR(probed[i].weight, lobe.weight, 1e-7);
+      finding.add(std::abs(p.weight - lobe.weight) / kLobeWeight);
       if (lobe.weight < 1e-3) continue;
-      EXPECT_NEAR(probed[i].mean_x, lobe.mean.x, kMeanTolerance);
-      EXPECT_NEAR(probed[i].mean_y, lobe.mean.y, kMeanTolerance);
-      EXPECT_NEAR(probed[i].variance, lobe.variance, kVarianceTolerance);
-      // What is shaded is the lobe the kernel found; its own rounding is tested above.
-      const reference::NormalLobe found = {
-          probed[i].weight, {probed[i].mean_x, probed[i].mean_y}, probed[i].variance};
+      finding.add(std::abs(p.mean_x - lobe.mean.x) / kLobeMean);
+      finding.add(std::abs(p.mean_y - lobe.mean.y) / kLobeMean);
+      finding.add(std::abs(p.variance - lobe.variance) / kLobeVariance);
+      // What is shaded is the lobe the kernel found; its own rounding is checked above.
+      const reference::NormalLobe found = {p.weight, {p.mean_x, p.mean_y}, p.variance};
       const reference::LobeLight expected =
           reference::shadeLobe(found, glm::dvec3(cases[i].light), glm::dvec3(cases[i].view), alpha);
-      EXPECT_NEAR(probed[i].specular, expected.specular,
-                  kMaskingTolerance * expected.specular + kDark)
-          << "case " << i << ", alpha " << alpha;
-      EXPECT_NEAR(probed[i].cosine, expected.cosine, kCosineTolerance) << "case " << i;
+      finding.add(std::abs(p.specular - expected.specular) /
+                  (kMaskingTolerance * expected.specular + kDark));
+      finding.add(std::abs(p.cosine - expected.cosine) / kLobeCosine);
     }
   }
+  return finding;
 }
 
-TEST(Lobes, EveryWidthGivesTheSameBits) {
+Finding sameBits(int lanes) {
   const std::vector<LobeCase> cases = randomCases(300);
-  const auto one = probe(cases, 0.2f, 1);
-  for (const int width : {4, 8, 16}) {
-    const auto wide = probe(cases, 0.2f, width);
-    for (std::size_t i = 0; i < cases.size(); ++i) {
-      EXPECT_EQ(std::bit_cast<std::uint32_t>(one[i].specular),
-                std::bit_cast<std::uint32_t>(wide[i].specular))
-          << width;
-      EXPECT_EQ(std::bit_cast<std::uint32_t>(one[i].cosine),
-                std::bit_cast<std::uint32_t>(wide[i].cosine))
-          << width;
-    }
-  }
+  const auto one = probe(cases, 0.2f, 1), wide = probe(cases, 0.2f, lanes);
+  const auto differ = [](float a, float b) {
+    return std::bit_cast<std::uint32_t>(a) != std::bit_cast<std::uint32_t>(b);
+  };
+  double different = 0;
+  for (std::size_t i = 0; i < cases.size(); ++i)
+    different += differ(one[i].specular, wide[i].specular) || differ(one[i].cosine, wide[i].cosine);
+  Finding finding(0);
+  finding.add(different);
+  return finding;
 }
 
-TEST(Lobes, HardCasesStayFiniteAndNotNegative) {
+// Weight 0, variance 0 and 1, means on the horizon and beyond, moments that no distribution has;
+// light and view straight up, grazing and below.
+Finding hardLobes(int lanes) {
   std::vector<LobeCase> cases;
   const glm::vec3 up(0, 0, 1), grazing = glm::normalize(glm::vec3(1, 0, 1e-4f));
   const glm::vec3 below = glm::normalize(glm::vec3(0, 1, -0.3f));
@@ -133,42 +124,49 @@ TEST(Lobes, HardCasesStayFiniteAndNotNegative) {
             momentsOf(1, {0.999f, 0}, 0), momentsOf(1, {1, 0}, 0.5f), momentsOf(0.5f, {0, 0}, 1),
             glm::vec4(1, 0.6f, 0, 0.3f), glm::vec4(-1e-8f, 0, 0, 0), glm::vec4(1, 2, 2, 0)})
         cases.push_back({moments, light, view});
+  double bad = 0;
   for (const float alpha : {1e-3f, 0.2f, 1.0f})
-    for (const ProbedLobe& lobe : probe(cases, alpha, 16))
+    for (const ProbedLobe& lobe : probe(cases, alpha, lanes))
       for (const float value : {lobe.weight, lobe.variance, lobe.specular, lobe.cosine})
-        EXPECT_TRUE(std::isfinite(value) && value >= 0) << value;
+        bad += !(std::isfinite(value) && value >= 0);
+  Finding finding(0);
+  finding.add(bad);
+  return finding;
 }
 
-// Four lobes in, what is left of them out: one pixel per group of sixteen lanes.
+// Four lobes in, what is left of them out: one pixel in all lanes.
 struct Mixture {
   int used = 0;
   glm::vec4 lobes[4];  // weight, mean x, mean y, variance
 };
 
-Mixture probeMixture(const std::vector<glm::vec4>& moments, float alpha) {
-  constexpr std::size_t kLanes = 16;
-  std::vector<float> in(16 * kLanes), out(17 * kLanes);
+Mixture probeMixture(const std::vector<glm::vec4>& moments, float alpha, int width) {
+  const auto lanes = static_cast<std::size_t>(width);
+  std::vector<float> in(16 * lanes), out(17 * lanes);
   for (std::size_t k = 0; k < 4; ++k)
     for (std::size_t c = 0; c < 4; ++c)
-      for (std::size_t lane = 0; lane < kLanes; ++lane)
-        in[(4 * k + c) * kLanes + lane] = moments[k][static_cast<int>(c)];
+      for (std::size_t lane = 0; lane < lanes; ++lane)
+        in[(4 * k + c) * lanes + lane] = moments[k][static_cast<int>(c)];
   Device& device = KernelBench::shared().device;
   Buffer input(device, in.size() * 4, "moments"), output(device, out.size() * 4, "a mixture");
   input.write(in.data(), in.size() * 4);
-  const std::vector<KernelArg> args = {input, output, static_cast<std::uint32_t>(kLanes), alpha};
-  gmmProbeKernel("lobe_probe.cl", "probeMixture",
-                 "-D WIDTH=16 -D DIFFUSE=1 -D NORMAL_MAP=1 -D NORMAL_METHOD=5 -D LOBES=4")
+  const std::vector<KernelArg> args = {input, output, static_cast<std::uint32_t>(lanes), alpha};
+  probeKernel(
+      "probe_lobe.cl", "probeMixture",
+      fmt::format("-D WIDTH={} -D DIFFUSE=1 -D NORMAL_MAP=1 -D NORMAL_METHOD=5 -D LOBES=4", width))
       .launch(args, 1, 1);
   output.read(out.data(), out.size() * 4);
   Mixture mixture;
   mixture.used = static_cast<int>(out[0]);
   for (std::size_t k = 0; k < 4; ++k)
     for (std::size_t c = 0; c < 4; ++c)
-      mixture.lobes[k][static_cast<int>(c)] = out[(4 * k + c + 1) * kLanes];
+      mixture.lobes[k][static_cast<int>(c)] = out[(4 * k + c + 1) * lanes];
   return mixture;
 }
 
-TEST(Mixtures, CloseLobesBecomeOneOfTheSameMeanAndVariance) {
+// Four lobes that a base lobe of roughness 0.25 hides from each other become one of the same mean
+// and variance; a smooth base lobe shows them apart. Quantities in units of their own bounds.
+Finding closeLobesMerge(int lanes) {
   const glm::vec2 means[] = {{0.11f, 0.2f}, {0.1f, 0.21f}, {0.09f, 0.19f}, {0.1f, 0.2f}};
   const float weights[] = {0.4f, 0.3f, 0.2f, 0.1f}, variances[] = {1e-4f, 0, 2e-4f, 1e-4f};
   std::vector<glm::vec4> moments;
@@ -177,26 +175,41 @@ TEST(Mixtures, CloseLobesBecomeOneOfTheSameMeanAndVariance) {
     moments.push_back(momentsOf(weights[i], means[i], variances[i]));
     sum += glm::dvec4(moments.back());
   }
-  const Mixture merged = probeMixture(moments, 0.25f);
+  const Mixture merged = probeMixture(moments, 0.25f, lanes);
   const reference::NormalLobe pooled = reference::lobeFromMoments(sum);
-  EXPECT_EQ(merged.used, 1);
-  EXPECT_NEAR(merged.lobes[0][0], 1, kMeanTolerance);
-  EXPECT_NEAR(merged.lobes[0][1], pooled.mean.x, kMeanTolerance);
-  EXPECT_NEAR(merged.lobes[0][2], pooled.mean.y, kMeanTolerance);
-  EXPECT_NEAR(merged.lobes[0][3], pooled.variance, kVarianceTolerance);
-  EXPECT_EQ(probeMixture(moments, 0.02f).used, 4) << "a smooth base lobe shows them apart";
+  Finding finding(1);
+  finding.require(merged.used == 1, "close lobes are still several");
+  finding.add(std::abs(merged.lobes[0][0] - 1) / kLobeMean);
+  finding.add(std::abs(merged.lobes[0][1] - pooled.mean.x) / kLobeMean);
+  finding.add(std::abs(merged.lobes[0][2] - pooled.mean.y) / kLobeMean);
+  finding.add(std::abs(merged.lobes[0][3] - pooled.variance) / kLobeVariance);
+  finding.require(probeMixture(moments, 0.02f, lanes).used == 4,
+                  "lobes that a smooth base lobe shows apart became fewer");
+  return finding;
 }
 
-TEST(Mixtures, LobesOfWeightZeroGoLastAndTheOthersKeepTheirOrder) {
+Finding weightlessLobesGoLast(int lanes) {
   const Mixture packed = probeMixture({momentsOf(0, {0, 0}, 0), momentsOf(0.7f, {0.5f, 0}, 0.01f),
                                        momentsOf(0, {0, 0}, 0), momentsOf(0.3f, {-0.5f, 0.1f}, 0)},
-                                      0.1f);
-  EXPECT_EQ(packed.used, 2);
-  EXPECT_FLOAT_EQ(packed.lobes[0][0], 0.7f);
-  EXPECT_FLOAT_EQ(packed.lobes[1][0], 0.3f);
-  EXPECT_NEAR(packed.lobes[1][1], -0.5f, kMeanTolerance);
-  EXPECT_EQ(probeMixture(std::vector<glm::vec4>(4, glm::vec4(0)), 0.1f).used, 1) << "no lobe";
+                                      0.1f, lanes);
+  Finding finding(1);
+  finding.require(packed.used == 2, "two of four lobes have weight");
+  finding.add(std::abs(packed.lobes[0][0] - 0.7f) / kLobeWeight);
+  finding.add(std::abs(packed.lobes[1][0] - 0.3f) / kLobeWeight);
+  finding.add(std::abs(packed.lobes[1][1] + 0.5f) / kLobeMean);
+  finding.require(probeMixture(std::vector<glm::vec4>(4, glm::vec4(0)), 0.1f, lanes).used == 1,
+                  "no lobe of weight is shaded as one");
+  return finding;
 }
 
 }  // namespace
+
+std::vector<Check> lobeChecks() {
+  return {{"lobe/reference", "error in units of its bound", matchesReference},
+          {"lobe/weight_0_variance_0", "values NaN, infinite or negative", hardLobes},
+          {"lobe/close_lobes_merge", "error in units of its bound", closeLobesMerge},
+          {"lobe/weight_0_last", "error in units of its bound", weightlessLobesGoLast},
+          {"lobe/same_bits", "lobes that differ from one lane's", sameBits}};
+}
+
 }  // namespace glintmark

@@ -1,17 +1,17 @@
-#include "tests/ltc/area_light_harness.h"
+#include "host/verify/area_light_harness.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "host/frame/area_lights.h"
-#include "tests/glint/pixel_harness.h"
+#include "host/verify/pixel_harness.h"
 
 namespace glintmark {
 namespace {
 
 constexpr std::size_t kLocalSize = 16;
-constexpr const char* kProbes = "../ltc/ltc_probes.cl";
+constexpr const char* kProbes = "probe_area_light.cl";
 
 template <typename T>
 Buffer upload(const std::vector<T>& items) {

@@ -7,7 +7,7 @@
 
 namespace glintmark {
 
-/// As numbered in glint_probes.cl.
+/// As numbered in probe_glint.cl.
 enum class MathFunction : std::int32_t { kExp2, kLog2, kReciprocal, kRsqrt, kNormalUpperQuantile };
 
 /// y = function(x) by the kernels of `width` lanes.

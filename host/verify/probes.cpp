@@ -1,10 +1,10 @@
-#include "tests/glint/probes.h"
+#include "host/verify/probes.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "tests/glint/pixel_harness.h"
+#include "host/verify/pixel_harness.h"
 
 namespace glintmark {
 namespace {
@@ -46,7 +46,7 @@ Buffer makeOutput(std::size_t words) {
 std::vector<float> probeMath(MathFunction function, const std::vector<float>& x, int width) {
   const std::size_t padded = paddedCount(x.size());
   Buffer out = makeOutput(padded);
-  launch("glint_probes.cl", "probeMath", "", width,
+  launch("probe_glint.cl", "probeMath", "", width,
          {upload(x), out, static_cast<std::uint32_t>(padded), static_cast<std::int32_t>(function)},
          padded);
   return download<float>(out, 0, x.size());
@@ -57,7 +57,7 @@ HashProbe probeHash(const std::vector<std::int32_t>& cell_u,
                     const std::vector<std::int32_t>& jv, int width) {
   const std::size_t n = cell_u.size(), padded = paddedCount(n);
   Buffer out = makeOutput(3 * padded);
-  launch("glint_probes.cl", "probeHash", "", width,
+  launch("probe_glint.cl", "probeHash", "", width,
          {upload(cell_u), upload(cell_v), upload(ju), upload(jv), out,
           static_cast<std::uint32_t>(padded)},
          padded);
@@ -68,7 +68,7 @@ HashProbe probeHash(const std::vector<std::int32_t>& cell_u,
 RandomProbe probeRandom(const std::vector<std::uint32_t>& bits, int width) {
   const std::size_t padded = paddedCount(bits.size());
   Buffer out = makeOutput(2 * padded);
-  launch("glint_probes.cl", "probeRandom", "", width,
+  launch("probe_glint.cl", "probeRandom", "", width,
          {upload(bits), out, static_cast<std::uint32_t>(padded)}, padded);
   return {download<float>(out, 0, bits.size()), download<float>(out, padded, bits.size())};
 }
@@ -77,7 +77,7 @@ std::vector<float> probeBinomial(const std::vector<float>& u, const std::vector<
                                  const std::vector<float>& p, GlintMethod method, int width) {
   const std::size_t padded = paddedCount(u.size());
   Buffer out = makeOutput(padded);
-  launch("binomial_probe.cl", "probeBinomial",
+  launch("probe_binomial.cl", "probeBinomial",
          fmt::format("-D GLINT_METHOD={}", static_cast<int>(method)), width,
          {upload(u), upload(n), upload(p), out, static_cast<std::uint32_t>(padded)}, padded);
   return download<float>(out, 0, u.size());

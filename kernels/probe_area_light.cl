@@ -1,5 +1,4 @@
 // Runs the area-light functions over arrays of hand-made points, and single functions over values.
-// Compiled with the kernel folder on the include path and the switches of config.clh.
 #include "area_light.clh"
 #include "meso.clh"
 

@@ -1,14 +1,12 @@
-#include "tests/gmm/texture_harness.h"
+#include "host/verify/texture_harness.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <bit>
-#include <functional>
 #include <random>
 
-#include "host/ocl/kernel_folder.h"
-#include "tests/glint/pixel_harness.h"
+#include "host/verify/pixel_harness.h"
 
 namespace glintmark {
 namespace {
@@ -72,8 +70,8 @@ std::vector<FetchedTexel> fetchPixels(const TestTexture& texture, int texel_size
                                        static_cast<std::uint32_t>(n),
                                        most_probes,
                                        repeat ? kTextureRepeat : kTextureClamp};
-  gmmProbeKernel("texture_probe.cl", "probeTexture",
-                 fmt::format("-D WIDTH={} -D PROBE_TEXEL_SIZE={}", width, texel_size))
+  probeKernel("probe_texture.cl", "probeTexture",
+              fmt::format("-D WIDTH={} -D PROBE_TEXEL_SIZE={}", width, texel_size))
       .launch(args, n / static_cast<std::size_t>(width), kLocalSize);
   out.read(words.data(), words.size() * 4);
 
@@ -84,16 +82,6 @@ std::vector<FetchedTexel> fetchPixels(const TestTexture& texture, int texel_size
     fetched[i].level = words[(components + 1) * n + i];
   }
   return fetched;
-}
-
-Kernel gmmProbeKernel(const std::string& file, const std::string& name,
-                      const std::string& switches) {
-  const std::string path = std::string(GLINTMARK_SOURCE_DIR "/tests/gmm/") + file;
-  // The caches look at the kernel folder only; the text's hash makes them see changes here.
-  const std::string options =
-      fmt::format("{} -D PROBE_SOURCE={}u", switches,
-                  static_cast<std::uint32_t>(std::hash<std::string>()(readFile(path))));
-  return KernelBench::shared().cache.getWithOptions(path, options).kernel(name);
 }
 
 }  // namespace glintmark

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "host/core/shared_types.h"
-#include "host/ocl/compute.h"
 #include "host/reference/texture.h"
 
 namespace glintmark {
@@ -36,9 +35,5 @@ struct FetchedTexel {
 std::vector<FetchedTexel> fetchPixels(const TestTexture& texture, int texel_size,
                                       const std::vector<TexturePixel>& pixels, int most_probes,
                                       bool repeat, int width);
-
-/// A kernel of tests/gmm/<file> with the given switches.
-Kernel gmmProbeKernel(const std::string& file, const std::string& name,
-                      const std::string& switches);
 
 }  // namespace glintmark

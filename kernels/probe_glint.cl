@@ -1,5 +1,4 @@
-// Runs single functions of the kernels over arrays, so that tests can compare them one by one.
-// Compiled with the kernel folder on the include path and the switches of config.clh.
+// Runs single functions of the kernels over arrays, so that each can be compared with its definition.
 #include "footprint.clh"
 #include "hash.clh"
 

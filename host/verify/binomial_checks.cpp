@@ -1,0 +1,165 @@
+// The binomial sampler against closed forms and Boost.Math.
+#include <fmt/format.h>
+
+#include <bit>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "host/reference/binomial.h"
+#include "host/verify/binomial_cases.h"
+#include "host/verify/check_groups.h"
+#include "host/verify/probes.h"
+#include "host/verify/tolerances.h"
+
+namespace glintmark {
+namespace {
+
+// Mean in standard errors, and the variance where a float can hold it.
+Finding moments(GlintMethod method, int lanes) {
+  Finding finding(kMeanStandardErrors);
+  for (const BinomialCase& c : binomialGrid()) {
+    const std::vector<float> k = binomialDraws(c, method, true, lanes);
+    double mean = 0, variance = 0;
+    for (const float x : k) {
+      finding.require(x >= 0 && x <= std::ceil(c.n),
+                      fmt::format("{} successes of {} trials", x, c.n));
+      mean += x / static_cast<double>(kBinomialDraws);
+    }
+    for (const float x : k) variance += (x - mean) * (x - mean) / kBinomialDraws;
+    // 0.3 trials: one with probability 0.3.
+    const double want_mean = c.n * c.p;
+    const double want_variance = c.n < 1 ? want_mean * (1 - want_mean) : want_mean * (1 - c.p);
+    const double sigma = std::sqrt(want_variance);
+    // Where k is beyond 2^24, a float holds it to 6e-8.
+    const double standard_error =
+        sigma / std::sqrt(static_cast<double>(kBinomialDraws)) + 0.5e-7 * want_mean;
+    finding.require(standard_error > 0 || mean == 0, "something comes of nothing");
+    if (standard_error > 0) finding.add(std::abs(mean - want_mean) / standard_error);
+    if (want_variance > 0.01 && sigma > 100 * floatSpacing(want_mean))
+      finding.require(std::abs(variance / want_variance - 1) < kVarianceTolerance,
+                      fmt::format("variance of {} trials of probability {} is {}, not {}", c.n, c.p,
+                                  variance, want_variance));
+  }
+  return finding;
+}
+
+double referenceDraw(double u, double n, double p, GlintMethod method) {
+  const auto count = static_cast<std::int64_t>(n);
+  return static_cast<double>(method == GlintMethod::kExact ? reference::drawExact(u, count, p)
+                                                           : reference::drawZk16(u, count, p));
+}
+
+// Summed draws are Boost.Math's quantile, others within what the normal expansion leaves.
+Finding quantiles(GlintMethod method, int lanes) {
+  std::mt19937 random(13);
+  std::vector<float> u, n, p;
+  for (const BinomialCase& c : binomialGrid())
+    for (int i = 0; i < 200; ++i) {
+      u.push_back(static_cast<float>((static_cast<double>(random()) + 0.5) * 0x1p-32));
+      n.push_back(static_cast<float>(std::floor(c.n)));
+      p.push_back(static_cast<float>(c.p));
+    }
+  const auto k = probeBinomial(u, n, p, method, lanes);
+  const double summed_mean = method == GlintMethod::kExact ? 32 : 5;
+  std::size_t summed = 0, different = 0;
+  Finding finding(kFlippedDrawShare);
+  for (std::size_t i = 0; i < k.size(); ++i) {
+    const double difference = std::abs(k[i] - referenceDraw(u[i], n[i], p[i], method));
+    const double sigma = std::sqrt(n[i] * p[i] * (1.0 - p[i]));
+    const auto where = [&] { return fmt::format("u {} n {} p {}: {}", u[i], n[i], p[i], k[i]); };
+    if (n[i] * std::min<double>(p[i], 1.0 - p[i]) <= summed_mean) {
+      ++summed;
+      different += difference > floatSpacing(n[i]) / 2;
+      if (difference > 1 + floatSpacing(n[i])) finding.require(false, where());
+    } else {
+      // Rounding to whole numbers, single precision of n p, and what the expansion leaves.
+      const double rounding = 1.01 + floatSpacing(n[i]) + 4e-7 * n[i] * p[i];
+      if (difference - rounding > kExpansionSigmas * sigma) finding.require(false, where());
+    }
+  }
+  finding.add(static_cast<double>(different) / static_cast<double>(summed));
+  return finding;
+}
+
+Finding extremes(GlintMethod method, int lanes) {
+  std::vector<float> u, n, p;
+  for (const float a : {0x1p-33f, 1e-9f, 1e-4f, 0.5f, 0.9999999f, 1.0f})
+    for (const float b : {0.f, 1.f, 2.f, 17.f, 1e4f, 1e9f, 0x1p30f})
+      for (const float c : {0.f, 1e-38f, 1e-12f, 1e-9f, 0.5f, 0.50000006f, 0.99999994f, 1.f}) {
+        u.push_back(a);
+        n.push_back(b);
+        p.push_back(c);
+      }
+  const auto k = probeBinomial(u, n, p, method, lanes);
+  double bad = 0;
+  for (std::size_t i = 0; i < k.size(); ++i) {
+    const bool in_range = k[i] >= 0 && k[i] <= n[i] && k[i] == std::floor(k[i]);
+    bad += !in_range || (p[i] == 0 && k[i] != 0) || (p[i] == 1 && k[i] != n[i]);
+  }
+  Finding finding(0);
+  finding.add(bad);
+  return finding;
+}
+
+// Beyond u = 1e-7 of P(K > 0), sums in single precision cannot resolve u any more; but they must
+// not answer with more than the smallest of all uniforms stands for.
+Finding deepTail(GlintMethod method, int lanes) {
+  constexpr float kLeastUniform = 0x1p-33f;
+  std::vector<float> u, n, p;
+  std::mt19937 random(14);
+  for (const float count : {1.f, 3.f, 7.f, 12.f, 20.f, 100.f, 1e4f, 1e6f, 1e9f})
+    for (const float mean : {1e-6f, 1e-3f, 0.05f, 0.5f, 1.f, 3.f, 4.9f, 10.f, 30.f})
+      for (int i = 0; i < 64 && mean < 0.5f * count; ++i) {
+        u.push_back(i == 0 ? kLeastUniform
+                           : static_cast<float>(std::pow(10.0, -6 - 3.9 * random() * 0x1p-32)));
+        n.push_back(count);
+        p.push_back(mean / count);
+      }
+  const auto k = probeBinomial(u, n, p, method, lanes);
+  double fireflies = 0;
+  for (std::size_t i = 0; i < k.size(); ++i)
+    fireflies += k[i] > referenceDraw(kLeastUniform, n[i], p[i], method) + 1;
+  Finding finding(0);
+  finding.add(fireflies);
+  return finding;
+}
+
+Finding sameBits(GlintMethod method, int lanes) {
+  std::mt19937 random(12);
+  std::vector<float> u, n, p;
+  for (const BinomialCase& c : binomialGrid())
+    for (int i = 0; i < 64; ++i) {
+      u.push_back(static_cast<float>((static_cast<double>(random()) + 0.5) * 0x1p-32));
+      n.push_back(binomialTrials(c, random));
+      p.push_back(static_cast<float>(c.p));
+    }
+  const auto one = probeBinomial(u, n, p, method, 1), wide = probeBinomial(u, n, p, method, lanes);
+  double different = 0;
+  for (std::size_t i = 0; i < one.size(); ++i)
+    different += std::bit_cast<std::uint32_t>(one[i]) != std::bit_cast<std::uint32_t>(wide[i]);
+  Finding finding(0);
+  finding.add(different);
+  return finding;
+}
+
+}  // namespace
+
+std::vector<Check> binomialChecks() {
+  std::vector<Check> checks;
+  for (const GlintMethod method : {GlintMethod::kZk16, GlintMethod::kExact}) {
+    const std::string group = method == GlintMethod::kZk16 ? "binomial/zk16_" : "binomial/exact_";
+    const auto add = [&](const char* name, const char* measure, Finding (*run)(GlintMethod, int)) {
+      checks.push_back(
+          {group + name, measure, [run, method](int lanes) { return run(method, lanes); }});
+    };
+    add("moments", "standard errors of the mean", moments);
+    add("quantile", "share of sums that differ from Boost.Math", quantiles);
+    add("extremes", "draws out of range", extremes);
+    add("deep_tail", "draws beyond the least uniform's", deepTail);
+    add("same_bits", "draws that differ from one lane's", sameBits);
+  }
+  return checks;
+}
+
+}  // namespace glintmark

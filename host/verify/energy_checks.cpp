@@ -1,0 +1,310 @@
+// Glints on average are the smooth lobe, and become it pixel by pixel as they get denser; the lobe
+// under a cone of light is the mean over the cone.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "host/reference/light_cone.h"
+#include "host/verify/check_groups.h"
+#include "host/verify/pixel_harness.h"
+#include "host/verify/random_pixels.h"
+#include "host/verify/tolerances.h"
+
+namespace glintmark {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+// Pixels of one view and light, all over a large surface: every one has cells of its own.
+HandMadeFrame spreadPixels(std::size_t count, double size, double aspect) {
+  HandMadeFrame frame;
+  frame.pixels.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    HandMadePixel& pixel = frame.pixels[i];
+    const double x = static_cast<double>(i % 512), y = static_cast<double>(i / 512);
+    // Steps of odd fractions keep the pixels at all places within their cells.
+    pixel.footprint.u = fixedCoordinate(size * aspect * 2.37 * x - 3);
+    pixel.footprint.v = fixedCoordinate(size * aspect * 2.61 * y + 5);
+    pixel.footprint.duv_dx = {size * aspect, 0.1 * size};
+    pixel.footprint.duv_dy = {-0.2 * size, size};
+    pixel.frame = flatFrame();
+  }
+  return frame;
+}
+
+// A light whose half vector with the view along +z has slope (tan, 0) turned by `turn`.
+glm::dvec3 lightForSlope(double slope, double turn) {
+  const double angle = 2 * std::atan(slope);
+  return {std::sin(angle) * std::cos(turn), std::sin(angle) * std::sin(turn), std::cos(angle)};
+}
+
+struct Moments {
+  double mean = 0, standard_error = 0;
+};
+
+// Of radiance relative to the smooth lobe, over pixels and channel `c`.
+Moments ratioMoments(const HandMadeFrame& frame, KernelConfig config, int c = 0) {
+  const ShadedPixels glints = shadePixels(frame, config);
+  KernelConfig smooth_config = config;
+  smooth_config.glint = smooth_config.groove = smooth_config.glint_colour = false;
+  HandMadeFrame one = frame;
+  one.pixels.resize(1);
+  const double smooth = shadePixels(one, smooth_config).radiance[0][c];
+  double sum = 0, squares = 0;
+  for (const glm::vec3& radiance : glints.radiance) {
+    const double ratio = radiance[c] / smooth;
+    sum += ratio;
+    squares += ratio * ratio;
+  }
+  const auto n = static_cast<double>(frame.pixels.size());
+  Moments m;
+  m.mean = sum / n;
+  m.standard_error = std::sqrt(std::max(squares / n - m.mean * m.mean, 0.0) / n);
+  return m;
+}
+
+void addMean(Finding& finding, const Moments& m, bool is_precise = true) {
+  finding.add(std::abs(m.mean - 1));
+  finding.require(!is_precise || m.standard_error < kEnergyTolerance / 4,
+                  "too few pixels to tell the mean");
+}
+
+struct GlintKind {
+  const char* name;
+  GlintMethod method;
+  bool groove, colour;
+};
+constexpr GlintKind kKinds[] = {{"zk16", GlintMethod::kZk16, false, false},
+                                {"exact", GlintMethod::kExact, false, false},
+                                {"zk16_groove", GlintMethod::kZk16, true, false},
+                                {"zk16_colour", GlintMethod::kZk16, false, true}};
+
+KernelConfig configOf(const GlintKind& kind, int lanes, float variation) {
+  KernelConfig c;
+  c.width = lanes;
+  c.method = kind.method;
+  c.groove = kind.groove;
+  c.glint_colour = kind.colour;
+  c.size_variation = variation > 0;
+  return c;
+}
+
+Finding meanForEverySizeVariation(const GlintKind& kind, int lanes) {
+  Finding finding(kEnergyTolerance);
+  for (const float variation : {0.f, 1.f, 3.f, 10.f, 100.f})
+    for (const double slope : {0.0, 0.3, 0.6}) {  // p from its peak down by e^-4
+      HandMadeFrame frame = spreadPixels(1 << 16, 3e-3, 3);
+      // Cells of about 1e-5 uv^2: 1000 microdetails before variation.
+      frame.material = simpleMaterial({0.3f, 0.3f}, {0.15f, 0.15f}, 1e8f, variation);
+      frame.lights = {coneLight(lightForSlope(slope, 0.7))};
+      addMean(finding, ratioMoments(frame, configOf(kind, lanes, variation)));
+    }
+  return finding;
+}
+
+// 0.3 microdetails per cell and less: N is 0 or 1 most of the time.
+Finding meanOfNearlyEmptyCells(const GlintKind& kind, int lanes) {
+  Finding finding(kEnergyTolerance);
+  HandMadeFrame frame = spreadPixels(1 << 18, 3e-3, 3);
+  frame.material = simpleMaterial({0.3f, 0.3f}, {0.25f, 0.25f}, 3e4f, 0);
+  frame.lights = {coneLight(lightForSlope(0.1, 0.3))};
+  addMean(finding, ratioMoments(frame, configOf(kind, lanes, 0)));
+  return finding;
+}
+
+// p about 1e-5, N about 1e6 per cell.
+Finding meanOfSmallProbabilities(const GlintKind& kind, int lanes) {
+  Finding finding(kEnergyTolerance);
+  HandMadeFrame frame = spreadPixels(1 << 16, 3e-3, 3);
+  frame.material = simpleMaterial({0.3f, 0.3f}, {1e-3f, 1e-3f}, 1e11f, 1);
+  frame.lights = {coneLight(lightForSlope(0.1, 0.3))};
+  addMean(finding, ratioMoments(frame, configOf(kind, lanes, 1)));
+  return finding;
+}
+
+// Stretched cells span many pixels, which are then no independent samples; the mean over fewer
+// cells keeps the same bound.
+Finding meanOfStretchedCells(const GlintKind& kind, int lanes) {
+  Finding finding(kEnergyTolerance);
+  HandMadeFrame frame = spreadPixels(1 << 16, 1e-3, 3);
+  frame.material = simpleMaterial({0.5f, 0.1f}, {0.2f, 0.05f}, 1e7f, 1);
+  frame.lights = {coneLight(lightForSlope(0.1, 1.3))};
+  addMean(finding, ratioMoments(frame, configOf(kind, lanes, 1)), false);
+  return finding;
+}
+
+Finding densityToInfinity(const GlintKind& kind, int lanes) {
+  Finding finding(kEnergyTolerance);
+  double previous = std::numeric_limits<double>::max();
+  for (const float density : {1e9f, 1e11f, 1e13f}) {
+    HandMadeFrame frame;
+    frame.pixels = randomPixels(2000, {1e-3, 1e-2, 16});
+    frame.material = simpleMaterial({0.3f, 0.3f}, {0.2f, 0.2f}, density, 0);
+    frame.lights = {coneLight({-0.3, 0.2, 0.9})};
+    setRandomRays(frame);
+    const ShadedPixels glints = shadePixels(frame, configOf(kind, lanes, 0));
+    KernelConfig smooth_config;
+    smooth_config.width = lanes;
+    smooth_config.glint = false;
+    const ShadedPixels smooth = shadePixels(frame, smooth_config);
+    double worst = 0;
+    for (std::size_t i = 0; i < frame.pixels.size(); ++i) {
+      // The lobe's far tail has few microdetails at any density.
+      if (smooth.radiance[i].x < 0.01) continue;
+      worst = std::max(worst, std::abs(glints.radiance[i].x / smooth.radiance[i].x - 1.0));
+    }
+    finding.require(worst < previous / 3, fmt::format("density {} brings {}", density, worst));
+    previous = worst;
+  }
+  finding.add(previous);
+  return finding;
+}
+
+// Each channel of a palette on average.
+Finding palette(int lanes) {
+  HandMadeFrame frame = spreadPixels(1 << 16, 3e-3, 3);
+  frame.material = simpleMaterial({0.3f, 0.3f}, {0.15f, 0.15f}, 1e7f, 0);
+  frame.material.palette_count = 3;
+  frame.material.palette[0] = {0.9f, 0.1f, 0.2f, 0};
+  frame.material.palette[1] = {0.1f, 0.8f, 0.3f, 0};
+  frame.material.palette[2] = {0.2f, 0.3f, 0.7f, 0};
+  frame.lights = {coneLight(lightForSlope(0.2, 0.3))};
+  KernelConfig config;
+  config.width = lanes;
+  config.size_variation = false;
+  config.glint_colour = true;
+  Finding finding(kEnergyTolerance);
+  for (int c = 0; c < 3; ++c) finding.add(std::abs(ratioMoments(frame, config, c).mean / 0.4 - 1));
+  return finding;
+}
+
+// --- Light cones ---------------------------------------------------------------------------------
+
+constexpr int kConeSamples = 40000;
+
+glm::dvec3 direction(double angle_deg, double turn_deg) {
+  const double a = angle_deg * kDegree, t = turn_deg * kDegree;
+  return {std::sin(a) * std::cos(t), std::sin(a) * std::sin(t), std::cos(a)};
+}
+
+HandMadeFrame onePixel(const glm::dvec3& light, const glm::dvec3& view, double half_angle_rad) {
+  HandMadeFrame frame;
+  frame.pixels.resize(1);
+  frame.pixels[0].frame = flatFrame();
+  frame.ray_origin = -view;
+  frame.lights = {coneLight(light, half_angle_rad)};
+  return frame;
+}
+
+double kernelSmooth(const HandMadeFrame& frame, bool diffuse, int lanes) {
+  KernelConfig config;
+  config.width = lanes;
+  config.glint = config.size_variation = false;
+  config.light_cone = true;
+  config.diffuse = diffuse;
+  return shadePixels(frame, config).radiance[0].x;
+}
+
+// Error of the kernel's lobe relative to the brightest of that view.
+double coneError(const glm::dvec3& axis, double view_deg, double half_rad, const glm::dvec2& alpha,
+                 int lanes) {
+  const glm::dvec3 view = direction(view_deg, 0);
+  HandMadeFrame frame = onePixel(axis, view, half_rad);
+  frame.material = simpleMaterial({static_cast<float>(alpha.x), static_cast<float>(alpha.y)},
+                                  {0.05f, 0.05f}, 1e6f);
+  const auto brute_force = [&](const glm::dvec3& towards) {
+    return reference::coneRadiance({towards, half_rad}, view, alpha, glm::dvec3(1.0), kConeSamples)
+        .x;
+  };
+  const double want = brute_force(axis), brightest = brute_force(direction(view_deg, 180));
+  return std::abs(kernelSmooth(frame, false, lanes) - want) / std::max(brightest, want);
+}
+
+Finding coneLobe(double half_deg, int lanes) {
+  Finding finding(kWorstConeTolerance);
+  for (const glm::dvec2& alpha : {glm::dvec2(0.1), glm::dvec2(0.3), glm::dvec2(0.5, 0.15)}) {
+    double sum = 0, count = 0;
+    for (const double view_deg : {0.0, 30.0, 60.0, 80.0})
+      for (const double light_deg : {0.0, 20.0, 50.0, 75.0, 85.0, 95.0}) {
+        const double error =
+            coneError(direction(light_deg, 160), view_deg, half_deg * kDegree, alpha, lanes);
+        finding.add(error);
+        sum += error;
+        ++count;
+      }
+    finding.require(sum / count < kMeanConeTolerance, fmt::format("mean error {}", sum / count));
+  }
+  return finding;
+}
+
+Finding coneDiffuse(double half_deg, int lanes) {
+  Finding finding(kConeDiffuseTolerance / std::numbers::pi);
+  for (const double light_deg : {0.0, 40.0, 80.0, 95.0}) {
+    const glm::dvec3 axis = direction(light_deg, 160);
+    HandMadeFrame frame = onePixel(axis, {0, 0, 1}, half_deg * kDegree);
+    frame.material = simpleMaterial({0.3f, 0.3f}, {0.05f, 0.05f}, 1e6f);
+    frame.material.intensity = 0;
+    frame.material.albedo = {1, 1, 1, 0};
+    const double want = reference::coneDiffuse({axis, half_deg * kDegree}, kConeSamples);
+    finding.add(std::abs(kernelSmooth(frame, true, lanes) - want));
+  }
+  return finding;
+}
+
+// The mean over many pixels of glints is the smooth lobe for lights of every size.
+Finding coneGlints(double half_deg, int lanes) {
+  HandMadeFrame frame = onePixel(direction(40, 160), direction(20, 0), half_deg * kDegree);
+  frame.material = simpleMaterial({0.3f, 0.3f}, {0.05f, 0.05f}, 1e7f, 1);
+  const double smooth = kernelSmooth(frame, false, lanes);
+  const HandMadePixel prototype = frame.pixels[0];
+  frame.pixels.clear();
+  for (int i = 0; i < 1 << 16; ++i) {
+    HandMadePixel pixel = prototype;
+    pixel.footprint.u = fixedCoordinate(0.0123 * (i % 256));
+    pixel.footprint.v = fixedCoordinate(0.0117 * (i / 256));
+    pixel.footprint.duv_dx = {3e-3, 1e-3};
+    pixel.footprint.duv_dy = {-1e-3, 4e-3};
+    frame.pixels.push_back(pixel);
+  }
+  Finding finding(kEnergyTolerance);
+  for (const GlintMethod method : {GlintMethod::kZk16, GlintMethod::kExact}) {
+    KernelConfig config;
+    config.width = lanes;
+    config.light_cone = true;
+    config.method = method;
+    double sum = 0;
+    for (const glm::vec3& radiance : shadePixels(frame, config).radiance) sum += radiance.x;
+    finding.add(std::abs(sum / static_cast<double>(frame.pixels.size()) / smooth - 1));
+  }
+  return finding;
+}
+
+}  // namespace
+
+std::vector<Check> energyChecks() {
+  std::vector<Check> checks;
+  const auto add = [&](const std::string& name, const char* measure, auto run, auto parameter) {
+    checks.push_back(
+        {name, measure, [run, parameter](int lanes) { return run(parameter, lanes); }});
+  };
+  for (const GlintKind& kind : kKinds) {
+    const std::string group = std::string("energy/") + kind.name;
+    add(group + "_varied", "mean over the smooth lobe - 1", meanForEverySizeVariation, kind);
+    add(group + "_empty", "mean over the smooth lobe - 1", meanOfNearlyEmptyCells, kind);
+    add(group + "_small_p", "mean over the smooth lobe - 1", meanOfSmallProbabilities, kind);
+    add(group + "_stretched", "mean over the smooth lobe - 1", meanOfStretchedCells, kind);
+    add(group + "_dense", "worst pixel at density 1e13", densityToInfinity, kind);
+  }
+  checks.push_back({"energy/palette", "mean over the palette's - 1", palette});
+  for (const int half_deg : {0, 1, 5, 15, 45, 90}) {
+    const std::string group = "cone/" + std::to_string(half_deg) + "deg_";
+    add(group + "lobe", "error over the brightest", coneLobe, half_deg);
+    add(group + "diffuse", "absolute error", coneDiffuse, half_deg);
+    add(group + "glints", "mean over the smooth lobe - 1", coneGlints, half_deg);
+  }
+  return checks;
+}
+
+}  // namespace glintmark

@@ -1,0 +1,182 @@
+// Pixels of glints: the same cells and the same draws as the double-precision reference, and the
+// same bits at every lane count.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "host/verify/check_groups.h"
+#include "host/verify/pixel_harness.h"
+#include "host/verify/random_pixels.h"
+#include "host/verify/tolerances.h"
+
+namespace glintmark {
+namespace {
+
+constexpr auto kZk16 = GlintMethod::kZk16;
+constexpr auto kExact = GlintMethod::kExact;
+
+struct DrawCase {
+  const char* name;
+  GlintMethod method;
+  float2 alpha_g, alpha_l;
+  float density;
+  float size_variation;
+  bool groove;
+  int ka;
+  FootprintRange footprints;
+};
+
+constexpr FootprintRange kUsual{1e-4, 1e-2, 20};
+constexpr DrawCase kDrawCases[] = {
+    {"zk16_sparse", kZk16, {.3f, .3f}, {.03f, .03f}, 1e6f, 0, false, 16, kUsual},
+    {"zk16_dense", kZk16, {.3f, .3f}, {.03f, .03f}, 1e9f, 0, false, 16, kUsual},
+    {"zk16_varied", kZk16, {.3f, .3f}, {.1f, .1f}, 1e6f, 2, false, 16, kUsual},
+    {"zk16_stretched", kZk16, {.4f, .1f}, {.02f, .05f}, 1e6f, 1, false, 16, kUsual},
+    {"zk16_groove", kZk16, {.1f, .5f}, {.1f, .02f}, 1e6f, 1, true, 16, kUsual},
+    {"zk16_ka4", kZk16, {.3f, .3f}, {.03f, .03f}, 1e7f, 0, false, 4, {1e-4, 1e-2, 64}},
+    {"zk16_ka1", kZk16, {.3f, .3f}, {.03f, .03f}, 1e7f, 0, false, 1, {1e-4, 1e-2, 64}},
+    {"zk16_ka64", kZk16, {.3f, .3f}, {.03f, .03f}, 1e7f, 0, false, 64, {1e-4, 1e-2, 100}},
+    {"zk16_wide_lobe", kZk16, {.3f, .3f}, {.299f, .299f}, 1e6f, 1, false, 16, kUsual},
+    {"exact_sparse", kExact, {.3f, .3f}, {.03f, .03f}, 1e6f, 0, false, 16, kUsual},
+    {"exact_dense", kExact, {.3f, .3f}, {.03f, .03f}, 1e9f, 0, false, 16, kUsual},
+    {"exact_varied", kExact, {.3f, .3f}, {.1f, .1f}, 1e6f, 2, false, 16, kUsual},
+    {"exact_stretched", kExact, {.4f, .1f}, {.02f, .05f}, 1e6f, 1, false, 16, kUsual},
+    {"exact_groove", kExact, {.1f, .5f}, {.1f, .02f}, 1e6f, 1, true, 16, kUsual},
+    {"exact_grazing", kExact, {.3f, .3f}, {.03f, .03f}, 1e6f, 0, false, 16, {1e-4, 1e-3, 500}}};
+
+HandMadeFrame drawFrame(const DrawCase& c) {
+  HandMadeFrame frame;
+  frame.material = simpleMaterial(c.alpha_g, c.alpha_l, c.density, c.size_variation);
+  frame.pixels = randomPixels(2000, c.footprints);
+  frame.lights = {coneLight({-0.3, 0.2, 0.9})};
+  setRandomRays(frame);
+  return frame;
+}
+
+ShadedPixels drawPixels(const DrawCase& c, const HandMadeFrame& frame, int lanes) {
+  KernelConfig config;
+  config.width = lanes;
+  config.method = c.method;
+  config.ka = c.ka;
+  config.groove = c.groove;
+  config.size_variation = c.size_variation > 0;
+  config.count_cells = true;
+  return shadePixels(frame, config);
+}
+
+// Pixel by pixel: the same cells, the same draws, the same radiance relative to the smooth lobe, so
+// that the approximations in the lobe stay out of it.
+Finding drawForDraw(const DrawCase& c, int lanes) {
+  const HandMadeFrame frame = drawFrame(c);
+  const ShadedPixels shaded = drawPixels(c, frame, lanes);
+  KernelConfig smooth_config;
+  smooth_config.width = lanes;
+  smooth_config.glint = false;
+  const ShadedPixels smooth = shadePixels(frame, smooth_config);
+  const std::vector<reference::PointLight> lights = referenceLights(frame);
+  reference::GlintMethodOptions options;
+  options.exact = c.method == kExact;
+  options.ka = c.ka;
+  options.stretch = deviceStretch(frame.material);
+
+  Finding finding(kFlippedPixelShare);
+  double different_counts = 0, flipped = 0, sum = 0, sum_reference = 0;
+  for (std::size_t i = 0; i < frame.pixels.size(); ++i) {
+    const reference::PixelResult expected =
+        reference::evaluatePixel(referencePixel(frame, frame.pixels[i]),
+                                 referenceGlints(frame.material, c.groove), lights, options);
+    const double difference = std::abs(static_cast<double>(shaded.cells[i]) - expected.cells);
+    finding.require(
+        difference <= (options.exact ? 2 : 0),
+        fmt::format("pixel {} visits {} cells, not {}", i, shaded.cells[i], expected.cells));
+    finding.require(shaded.limited[i] == expected.limited,
+                    fmt::format("pixel {} is not limited as the reference is", i));
+    different_counts += difference != 0;
+    if (expected.cells == 0 || expected.tied) continue;
+    const double got = shaded.radiance[i].x / smooth.radiance[i].x;
+    const double want = expected.radiance.x / expected.smooth.x;
+    finding.require(std::isfinite(got) && got >= 0, fmt::format("pixel {} is {}", i, got));
+    const double error = std::abs(got - want) / std::max(want, 1.0);
+    flipped += !(error <= kShareTolerance + 2 * expected.rounding);
+    sum += got;
+    sum_reference += want;
+  }
+  const auto count = static_cast<double>(frame.pixels.size());
+  finding.add(flipped / count);
+  finding.require(different_counts <= kThresholdCountShare * count, "too many counts differ");
+  finding.require(std::abs(sum / sum_reference - 1) <= kFlippedPixelShare, "the means differ");
+  return finding;
+}
+
+// [ZK16] Sect. 5: from 8 to 64 cells at K_a = 16. Footprints up to beyond the limit, of any size.
+Finding cellRange(int lanes) {
+  const DrawCase c = {"", kZk16, {.3f, .3f}, {.05f, .05f}, 1e6f, 0, false, 16, {1e-5, 1, 200}};
+  HandMadeFrame frame = drawFrame(c);
+  frame.pixels = randomPixels(20000, c.footprints);
+  for (HandMadePixel& pixel : frame.pixels) pixel.frame = flatFrame();
+  frame.ray_origin = {0, 0, -1};
+  frame.ray_dx = frame.ray_dy = glm::dvec3(0);
+  const ShadedPixels shaded = drawPixels(c, frame, lanes);
+  Finding finding(0);
+  double outside = 0;
+  for (const std::uint32_t cells : shaded.cells)
+    outside += cells < 8 || cells > 64 || cells % 2 != 0;
+  finding.add(outside);
+  const auto [least, most] = std::ranges::minmax(shaded.cells);
+  finding.require(least == 8 && most == 64, fmt::format("{} to {} cells", least, most));
+  return finding;
+}
+
+struct WidthCase {
+  const char* name;
+  GlintMethod method;
+  bool groove, colour, cone;
+};
+constexpr WidthCase kWidthCases[] = {{"zk16", kZk16, false, false, false},
+                                     {"zk16_groove_colour_cone", kZk16, true, true, true},
+                                     {"exact", kExact, false, false, false}};
+
+Finding sameBits(const WidthCase& c, int lanes) {
+  HandMadeFrame frame;
+  frame.pixels = randomPixels(1003, {1e-4, 1e-2, 24});
+  frame.material = simpleMaterial({0.3f, 0.2f}, {0.05f, 0.04f}, 1e6f, 1);
+  frame.lights = {coneLight({-0.3, 0.2, 0.9}, c.cone ? 0.05 : 0),
+                  coneLight({0.4, 0.1, 0.8}, 0, 0.3)};
+  setRandomRays(frame);
+  KernelConfig config;
+  config.width = 1;
+  config.method = c.method;
+  config.groove = c.groove;
+  config.glint_colour = c.colour;
+  config.light_cone = c.cone;
+  config.count_cells = true;
+  const ShadedPixels one = shadePixels(frame, config);
+  config.width = lanes;
+  const ShadedPixels wide = shadePixels(frame, config);
+  double different = 0;
+  for (std::size_t i = 0; i < one.cells.size(); ++i)
+    different += one.cells[i] != wide.cells[i] || one.limited[i] != wide.limited[i] ||
+                 one.radiance[i] != wide.radiance[i];
+  Finding finding(0);
+  finding.add(different);
+  return finding;
+}
+
+}  // namespace
+
+std::vector<Check> glintChecks() {
+  std::vector<Check> checks;
+  for (const DrawCase& c : kDrawCases)
+    checks.push_back({std::string("draws/") + c.name, "share of pixels with other draws",
+                      [&c](int lanes) { return drawForDraw(c, lanes); }});
+  checks.push_back({"cells/zk16_range", "pixels outside 8 to 64 cells", cellRange});
+  for (const WidthCase& c : kWidthCases)
+    checks.push_back({std::string("cells/same_bits_") + c.name,
+                      "pixels that differ from one lane's",
+                      [&c](int lanes) { return sameBits(c, lanes); }});
+  return checks;
+}
+
+}  // namespace glintmark

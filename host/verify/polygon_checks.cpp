@@ -1,0 +1,141 @@
+// Polygon lights over a cosine: against closed forms and the double-precision form factor.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+
+#include "host/verify/check_groups.h"
+#include "host/verify/polygon_cases.h"
+#include "host/verify/tolerances.h"
+
+namespace glintmark {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+double lightAtOrigin(const AreaLight& light, bool specular, int lanes) {
+  return lightPoints(identityProbe(light, specular, lanes), {HandMadePoint{}})[0].x;
+}
+
+// The identity transform is the cosine itself, so its integral is the form factor.
+Finding formFactor(int corners, int lanes) {
+  const AreaLight light = regularPolygon(corners, true);
+  const std::vector<HandMadePoint> points = randomPoints(2048, 1.5, 1);
+  Finding finding(kFormFactorTolerance);
+  for (const bool specular : {false, true}) {
+    const auto values = lightPoints(identityProbe(light, specular, lanes), points);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      finding.add(std::abs(values[i].x - exactFormFactor(light, points[i])));
+  }
+  return finding;
+}
+
+Finding oneSided(int lanes) {
+  const AreaLight light = regularPolygon(4, false);
+  const std::vector<HandMadePoint> points = randomPoints(2048, 1.5, 2);
+  const auto values = lightPoints(identityProbe(light, false, lanes), points);
+  Finding finding(kFormFactorTolerance);
+  int lit = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    finding.add(std::abs(values[i].x - exactFormFactor(light, points[i])));
+    const bool behind = points[i].position.z < 0;  // the front faces +z
+    finding.require(!behind || values[i].x == 0, "the back is lit");
+    lit += values[i].x > 0;
+  }
+  finding.require(lit > 100, "too few points are lit");
+  return finding;
+}
+
+// A point below a corner of a parallel rectangle of sides a and b at distance 1: the textbook's
+// closed form (Howell, configuration B-3).
+Finding parallelCorner(int lanes) {
+  Finding finding(kFormFactorTolerance);
+  for (const auto& [a, b] : {std::pair{1.0, 1.0}, {0.1, 3.0}, {20.0, 0.5}, {100.0, 100.0}}) {
+    const double ra = std::sqrt(1 + a * a), rb = std::sqrt(1 + b * b);
+    const double exact = (a / ra * std::atan(b / ra) + b / rb * std::atan(a / rb)) / (2 * kPi);
+    finding.add(std::abs(
+        lightAtOrigin(polygonLight(parallelRectangle(a / 2, b / 2, 1, a, b)), false, lanes) -
+        exact));
+  }
+  return finding;
+}
+
+// A rectangle that stands on the receiver's plane at distance c, from its foot's corner: Howell's
+// configuration B-5. Its lower edge lies exactly on the horizon.
+Finding standing(int lanes) {
+  Finding finding(kFormFactorTolerance);
+  for (const auto& [width, height, distance] :
+       {std::tuple{1.0, 1.0, 1.0}, {2.0, 0.3, 0.1}, {0.5, 10.0, 3.0}}) {
+    const double x = width / distance, y = height / distance, r = std::sqrt(1 + y * y);
+    const double exact = (std::atan(x) - std::atan(x / r) / r) / (2 * kPi);
+    const AreaLight light = polygonLight(
+        {{0, distance, 0}, {0, distance, height}, {width, distance, height}, {width, distance, 0}},
+        true);
+    finding.add(std::abs(lightAtOrigin(light, false, lanes) - exact));
+  }
+  return finding;
+}
+
+// 2 pi steradians reflect everything.
+Finding hemisphere(int lanes) {
+  const AreaLight light = polygonLight(parallelRectangle(0, 0, 1, 2e5, 2e5));
+  Finding finding(kFormFactorTolerance);
+  for (const bool specular : {false, true})
+    finding.add(std::abs(lightAtOrigin(light, specular, lanes) - 1));
+  return finding;
+}
+
+Finding solidAngles(double least, double most, double bound, int lanes) {
+  Finding finding(bound);
+  HandMadePoint point;
+  point.position = {0.3, -0.2, 0};
+  for (double omega = least; omega < most; omega *= 4) {
+    const double side = std::sqrt(omega);
+    const AreaLight light = polygonLight(parallelRectangle(0.5, 0.4, 1, side, side));
+    const double value = lightPoints(identityProbe(light, false, lanes), {point})[0].x;
+    finding.add(std::abs(value / exactFormFactor(light, point) - 1));
+  }
+  return finding;
+}
+
+Finding sameBits(int lanes) {
+  AreaLightProbe probe = identityProbe(regularPolygon(4, true), true, lanes);
+  probe.lights.push_back(polygonLight(parallelRectangle(1, 1, 0.5, 2, 1)));
+  const std::vector<HandMadePoint> points = randomPoints(777, 1.5, 3);
+  Finding finding(0);
+  for (const bool clipless : {false, true}) {
+    probe.clipless = clipless;
+    probe.width = lanes;
+    const auto wide = lightPoints(probe, points);
+    probe.width = 1;
+    const auto one = lightPoints(probe, points);
+    double different = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) different += one[i] != wide[i];
+    finding.add(different);
+  }
+  return finding;
+}
+
+}  // namespace
+
+std::vector<Check> polygonChecks() {
+  std::vector<Check> checks;
+  for (const int corners : {3, 4, 8})
+    checks.push_back({fmt::format("polygon/identity_{}_corners", corners), "error of form factors",
+                      [corners](int lanes) { return formFactor(corners, lanes); }});
+  checks.insert(checks.end(),
+                {{"polygon/one_sided", "error of form factors", oneSided},
+                 {"polygon/parallel_corner", "error of form factors", parallelCorner},
+                 {"polygon/standing_on_horizon", "error of form factors", standing},
+                 {"polygon/2pi_steradians", "error of form factors", hemisphere},
+                 {"polygon/1e-10_to_1e-6_sr", "relative error",
+                  [](int lanes) { return solidAngles(1e-10, 1e-6, kTinyLightRelative, lanes); }},
+                 {"polygon/1e-6_to_6_sr", "relative error",
+                  [](int lanes) { return solidAngles(1e-6, 6, kSmallLightRelative, lanes); }},
+                 {"polygon/same_bits", "points that differ from one lane's", sameBits}});
+  return checks;
+}
+
+}  // namespace glintmark

@@ -1,0 +1,13 @@
+// Programs that the tests compile go to the build folder, where the test programs share them, not
+// to the user's caches.
+#include <stdlib.h>
+
+namespace {
+
+[[maybe_unused]] const bool kCachesAreChosen = [] {
+  setenv("GLINTMARK_CACHE_DIR", GLINTMARK_BINARY_DIR "/test_cache/programs", 0);
+  setenv("POCL_CACHE_DIR", GLINTMARK_BINARY_DIR "/test_cache/pocl", 1);
+  return true;
+}();
+
+}  // namespace
