@@ -14,6 +14,9 @@
 #include "host/cli/tao21_bench.h"
 #include "host/cli/zk16_bench.h"
 #include "host/core/error.h"
+#include "host/core/trace.h"
+#include "host/report/atomic_file.h"
+#include "host/report/trace_file.h"
 
 namespace glintmark {
 namespace {
@@ -69,10 +72,15 @@ int runBench(const CommandLine& line, const std::vector<std::string>& names,
              const BenchOptions& options) {
   const std::vector<BenchTable> tables = chooseTables(names, options);
   const InterruptGuard guard;
+  if (!options.trace.empty()) {
+    requireWritableFile(options.trace);
+    startTrace();
+  }
   BenchRun run(line, options);
   for (const BenchTable& table : tables) table.measure(run);
   std::string text;
   for (const BenchTable& table : tables) text += (text.empty() ? "" : "\n") + table.text(run);
+  if (!options.trace.empty()) writeTrace(options.trace, run.info());
   return run.finish(text);
 }
 
@@ -100,12 +108,15 @@ void addBenchCommand(CLI::App& app, CommandLine& line) {
       ->type_name("FILE");
   command->add_option("--csv", options->csv, "Also writes the records to this CSV file")
       ->type_name("FILE");
+  command->add_option("--trace", options->trace, "Also writes a Chrome/Perfetto trace of the run")
+      ->type_name("FILE");
   command->add_flag("--resume", options->resume, "Keeps what an interrupted run has measured");
   command->footer(
       "Examples:\n"
       "  glintmark bench\n"
       "  glintmark bench zk16 --scene sponza --view grazing --reps 25\n"
-      "  glintmark bench zk16 --resume -o results/mine --json mine.json");
+      "  glintmark bench zk16 --resume -o results/mine --json mine.json\n"
+      "  glintmark bench tan05 --scene disk --trace trace.json    (open it at ui.perfetto.dev)");
   command->callback([options, tables, &line] {
     line.action = [options, tables, &line] { return runBench(line, *tables, *options); };
   });

@@ -8,6 +8,7 @@
 #include "host/cli/interrupt.h"
 #include "host/core/error.h"
 #include "host/core/progress.h"
+#include "host/core/trace.h"
 #include "host/report/atomic_file.h"
 #include "host/report/records.h"
 
@@ -91,6 +92,7 @@ void BenchRun::measureCases(const std::string& table, const std::vector<std::str
       };
       try {
         stopIfInterrupted();
+        const TraceScope scope("case", isTracing() ? table + "/" + cases[i] : std::string());
         measured = measure(cases[i]);
       } catch (const Interrupted&) {
         throw kept();

@@ -21,6 +21,7 @@ struct BenchOptions {
   int reps = 9;
   std::string folder = "results/latest";
   std::string json, csv;  // further copies, empty for none
+  std::string trace;      // file for the run's intervals, empty for none
   bool resume = false;
 };
 

@@ -7,17 +7,19 @@
 
 #include "host/cli/command_line.h"
 #include "host/core/error.h"
+#include "host/core/trace.h"
 #include "host/report/aov.h"
 #include "host/report/atomic_file.h"
 #include "host/report/image_io.h"
 #include "host/report/star.h"
 #include "host/report/tonemap.h"
+#include "host/report/trace_file.h"
 
 namespace glintmark {
 namespace {
 
 struct RenderOptions {
-  std::string scene, view, output, aov_output;
+  std::string scene, view, output, aov_output, trace;
   std::string size = "1920x1080", method = "zk16";
   bool no_glints = false;
   bool star = false, star_chosen = false;
@@ -47,7 +49,8 @@ void writePicture(Image radiance, const RenderOptions& options, const PostEffect
   }
 }
 
-int runRender(const CommonOptions& common, const RenderOptions& options) {
+int runRender(const CommandLine& line, const RenderOptions& options) {
+  const CommonOptions& common = line.common;
   const std::string extension = requireImageExtension(options.output);
   requireWritableFile(options.output);
   if (!options.aov_output.empty()) {
@@ -60,6 +63,7 @@ int runRender(const CommonOptions& common, const RenderOptions& options) {
   if (options.exposure && !(*options.exposure > 0)) {
     throw Error(fmt::format("--exposure {} is not a positive number", *options.exposure));
   }
+  if (!options.trace.empty()) requireWritableFile(options.trace);
   const ImageSize size = parseSize(options.size);
   ShadingOptions shading{.width_px = size.width_px,
                          .height_px = size.height_px,
@@ -69,12 +73,18 @@ int runRender(const CommonOptions& common, const RenderOptions& options) {
   const Scene scene = openScene(common, options.scene);
   const View& view = chosenView(scene, options.view);
   Device device = openDevice(common);
+  if (!options.trace.empty()) startTrace();
   FrameRenderer renderer(device, scene, view, shading, common.threads);
 
-  const FrameTimes prepared = renderer.prepare();
-  const FrameTimes shaded = renderer.shade();
-  FrameTimes read;
-  Image radiance = renderer.readRadiance(&read);
+  FrameTimes prepared, shaded, read;
+  Image radiance;
+  {
+    const TraceScope scope("frame", "frame");
+    prepared = renderer.prepare();
+    shaded = renderer.shade();
+    radiance = renderer.readRadiance(&read);
+  }
+  if (!options.trace.empty()) writeTrace(options.trace, describeRun(line, device));
   writePicture(std::move(radiance), options, scene.post, extension);
   if (!options.aov_output.empty()) writeExr(planesToImage(renderer.planes()), options.aov_output);
   printTimes(fmt::format("{}/{} {}x{}", scene.name, view.name, size.width_px, size.height_px),
@@ -97,6 +107,8 @@ void addRenderCommand(CLI::App& app, CommandLine& line) {
   command->add_option("--size", options->size, "Image size (default: 1920x1080)")->type_name("WxH");
   command->add_option("--aov", options->aov_output, "Every rasterized plane as channels of one EXR")
       ->type_name("FILE");
+  command->add_option("--trace", options->trace, "Chrome/Perfetto trace of host and device")
+      ->type_name("FILE");
   command->add_option("--method", options->method, "zk16 or exact (default: zk16)");
   command->add_flag("--no-glints", options->no_glints, "Smooth lobes in place of glints");
   const CLI::Option* star = command->add_flag("--star,!--no-star", options->star,
@@ -106,10 +118,11 @@ void addRenderCommand(CLI::App& app, CommandLine& line) {
       "Examples:\n"
       "  glintmark render snow -o snow.png --view grazing\n"
       "  glintmark render sand -o sand.exr --star --size 3840x2160\n"
-      "  glintmark render car -o car.png --aov planes.exr --set material.paint.log_density=7");
+      "  glintmark render car -o car.png --aov planes.exr --set material.paint.log_density=7\n"
+      "  glintmark render snow -o snow.png --trace trace.json    (open it at ui.perfetto.dev)");
   command->callback([options, star, &line] {
     options->star_chosen = star->count() > 0;
-    line.action = [options, &line] { return runRender(line.common, *options); };
+    line.action = [options, &line] { return runRender(line, *options); };
   });
 }
 

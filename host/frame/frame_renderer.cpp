@@ -9,6 +9,7 @@
 
 #include "host/core/error.h"
 #include "host/core/stopwatch.h"
+#include "host/core/trace.h"
 #include "host/frame/all_materials.h"
 #include "host/frame/area_lights.h"
 #include "host/frame/effects.h"
@@ -254,13 +255,17 @@ FrameRenderer::FrameRenderer(Device& device, const Scene& scene, const View& vie
 FrameRenderer::~FrameRenderer() = default;
 
 FrameTimes FrameRenderer::prepare() {
+  const TraceScope scope("frame", "prepare");
   FrameTimes times;
   if (impl_->bands.empty()) impl_->makeBands();  // later calls reuse their memory
   impl_->makeLights();
   impl_->configs.clear();
   for (Impl::Band& band : impl_->bands) {
     const Stopwatch watch;
-    impl_->rasterize(band);
+    {
+      const TraceScope raster_scope("frame", "rasterize");
+      impl_->rasterize(band);
+    }
     times.raster_ns += watch.elapsedNs();
     impl_->makeBuffers(band, times);
     impl_->makeLaunches(band);
@@ -307,17 +312,20 @@ Image FrameRenderer::Impl::readPlanes(std::size_t first_plane, double& readback_
 }
 
 FrameTimes FrameRenderer::shade() {
+  const TraceScope scope("frame", "shade");
   if (impl_->options.truth) throw Error("a renderer of the ground truth does not shade");
   return impl_->launchAll({});
 }
 
 FrameTimes FrameRenderer::addTruthSamples(std::uint32_t sample_begin, std::uint32_t sample_count) {
+  const TraceScope scope("frame", "truth samples");
   if (!impl_->options.truth)
     throw Error("samples of the ground truth need a renderer with ShadingOptions::truth");
   return impl_->launchAll({sample_begin, sample_count});
 }
 
 Image FrameRenderer::readRadiance(FrameTimes* times) {
+  const TraceScope scope("frame", "read back");
   double readback_ns = 0;
   Image image = impl_->readPlanes(0, readback_ns);
   if (times) times->readback_ns = readback_ns;

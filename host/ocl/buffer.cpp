@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "host/core/stopwatch.h"
+#include "host/core/trace.h"
 #include "host/ocl/opencl.h"
 
 namespace glintmark {
@@ -50,12 +51,18 @@ Buffer::Impl& nonEmpty(Buffer::Impl* impl) {
   return *impl;
 }
 
-// Wall time [ns] of `transfer`, with OpenCL errors made into ours.
+// Wall time [ns] of `transfer`, which gets the event to fill or, while tracing is off, null, with
+// OpenCL errors made into ours.
 template <typename Transfer>
 double timed(const std::string& doing, Transfer&& transfer) {
+  const TraceScope scope("transfer", doing);
+  const bool traced = isTracing();
+  const std::int64_t trace_begin_ns = traced ? traceNowNs() : 0;
   const Stopwatch watch;
   try {
-    transfer();
+    cl::Event event;
+    transfer(traced ? &event : nullptr);
+    if (traced) traceEvent("transfer", doing, event, trace_begin_ns);
   } catch (const cl::Error& error) {
     throw openClError(doing, error);
   }
@@ -87,22 +94,24 @@ double Buffer::write(const void* source, std::size_t bytes, std::size_t offset) 
   Impl& impl = nonEmpty(impl_.get());
   checkRange(impl, bytes, offset, "write");
   if (bytes == 0) return 0;
-  return timed("writing " + impl.what,
-               [&] { impl.queue.enqueueWriteBuffer(impl.buffer, CL_TRUE, offset, bytes, source); });
+  return timed("writing " + impl.what, [&](cl::Event* event) {
+    impl.queue.enqueueWriteBuffer(impl.buffer, CL_TRUE, offset, bytes, source, nullptr, event);
+  });
 }
 
 double Buffer::read(void* target, std::size_t bytes, std::size_t offset) const {
   Impl& impl = nonEmpty(impl_.get());
   checkRange(impl, bytes, offset, "read");
   if (bytes == 0) return 0;
-  return timed("reading " + impl.what,
-               [&] { impl.queue.enqueueReadBuffer(impl.buffer, CL_TRUE, offset, bytes, target); });
+  return timed("reading " + impl.what, [&](cl::Event* event) {
+    impl.queue.enqueueReadBuffer(impl.buffer, CL_TRUE, offset, bytes, target, nullptr, event);
+  });
 }
 
 void Buffer::fillZero() {
   Impl& impl = nonEmpty(impl_.get());
-  timed("clearing " + impl.what, [&] {
-    impl.queue.enqueueFillBuffer(impl.buffer, cl_uchar{0}, 0, impl.bytes);
+  timed("clearing " + impl.what, [&](cl::Event* event) {
+    impl.queue.enqueueFillBuffer(impl.buffer, cl_uchar{0}, 0, impl.bytes, nullptr, event);
     impl.queue.finish();
   });
 }

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "host/core/stopwatch.h"
+#include "host/core/trace.h"
 #include "host/ocl/opencl.h"
 
 namespace glintmark {
@@ -45,6 +46,8 @@ LaunchTimes Kernel::launch(std::span<const KernelArg> args, std::size_t global_s
   const std::size_t groups = (global_size + local_size - 1) / local_size;
   try {
     setArgs(*impl_, args);
+    const TraceScope scope("launch", impl_->name);
+    const std::int64_t trace_begin_ns = isTracing() ? traceNowNs() : 0;
     const Stopwatch watch;
     cl::Event event;
     impl_->queue.enqueueNDRangeKernel(impl_->kernel, cl::NullRange,
@@ -55,6 +58,7 @@ LaunchTimes Kernel::launch(std::span<const KernelArg> args, std::size_t global_s
     const cl_ulong begun_ns = event.getProfilingInfo<CL_PROFILING_COMMAND_START>();
     const cl_ulong ended_ns = event.getProfilingInfo<CL_PROFILING_COMMAND_END>();
     times.event_ns = static_cast<double>(ended_ns - begun_ns);
+    if (isTracing()) traceEvent("kernel", impl_->name, event, trace_begin_ns);
   } catch (const cl::Error& error) {
     throw openClError(fmt::format("kernel '{}' (global size {}, local size {})", impl_->name,
                                   groups * local_size, local_size),

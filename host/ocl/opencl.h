@@ -5,6 +5,7 @@
 #define CL_HPP_MINIMUM_OPENCL_VERSION 120
 #include <CL/opencl.hpp>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -79,6 +80,11 @@ struct Program::Impl {
   double build_ns = 0;
   bool from_disk_cache = false;
 };
+
+/// Keeps a finished command for the trace; the host enqueued it after `host_begin_ns` by
+/// traceNowNs().
+void traceEvent(const char* category, const std::string& name, const cl::Event& event,
+                std::int64_t host_begin_ns);
 
 /// Compiled binary of a built program for its device; empty if the driver gives none.
 std::string programBinary(const cl::Program& program);

@@ -6,6 +6,7 @@
 
 #include "host/core/disk_cache.h"
 #include "host/core/stopwatch.h"
+#include "host/core/trace.h"
 #include "host/ocl/build_failure.h"
 #include "host/ocl/kernel_folder.h"
 #include "host/ocl/opencl.h"
@@ -90,6 +91,7 @@ Program ProgramCache::Impl::build(const std::string& file, const std::string& ow
   program->built = memory[key];
   if (program->built) return Program(program);
 
+  const TraceScope scope("build", file);
   const IncludePath include(folder);
   options += " -I " + include.path();
   std::optional<cl::Program> built;
