@@ -26,16 +26,17 @@ class NormalTextures {
   explicit NormalTextures(Device& device) : device_(device) {}
 
   /// What `config`'s kernel reads of `map`. `order` says how the mixtures of method gmm are
-  /// aligned.
+  /// aligned, `iterations` how many EM steps a texel takes in the fit (0: its default).
   const NormalTexture& get(const std::shared_ptr<const NormalMap>& map, const KernelConfig& config,
-                           MixtureOrder order = MixtureOrder::kColours);
+                           MixtureOrder order = MixtureOrder::kColours, int iterations = 0);
   /// The finest level alone: what the ground truth and method fixed read.
   const NormalTexture& finest(const std::shared_ptr<const NormalMap>& map);
   /// Bytes of all textures held.
   std::size_t bytes() const;
 
  private:
-  using Key = std::tuple<std::shared_ptr<const NormalMap>, NormalMethod, int, bool, MixtureOrder>;
+  using Key =
+      std::tuple<std::shared_ptr<const NormalMap>, NormalMethod, int, bool, MixtureOrder, int>;
   Device& device_;
   std::map<Key, NormalTexture> textures_;
 };
