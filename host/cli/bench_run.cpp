@@ -20,6 +20,7 @@ std::map<std::string, std::string> measurementKey(const CommonOptions& common,
                                             {"method", options.method},
                                             {"reps", std::to_string(options.reps)},
                                             {"width", std::to_string(lanes)}};
+  key.insert(options.more_key.begin(), options.more_key.end());
   if (!common.overrides.empty()) key["set"] = fmt::format("{}", fmt::join(common.overrides, " "));
   if (!common.mesh_file.empty()) key["mesh"] = common.mesh_file;
   if (!common.asset_folder.empty()) key["assets"] = common.asset_folder;
@@ -103,6 +104,15 @@ void BenchRun::measureCases(const std::string& table, const std::vector<std::str
       log_.append(measured);
     }
     records_.insert(records_.end(), measured.begin(), measured.end());
+  }
+}
+
+void BenchRun::addDerived(const std::vector<Record>& derived) {
+  for (const Record& record : derived) {
+    const auto last = std::find_if(records_.rbegin(), records_.rend(), [&](const Record& other) {
+      return other.table == record.table && other.case_ == record.case_;
+    });
+    records_.insert(last.base(), record);
   }
 }
 

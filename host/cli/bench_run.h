@@ -1,5 +1,6 @@
 // One `bench` command: the device, the options, the log, and the cases that it measures.
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -22,6 +23,8 @@ struct BenchOptions {
   std::string folder = "results/latest";
   std::string json, csv;  // further copies, empty for none
   bool resume = false;
+  std::uint64_t rays = 0;  // most rays of a simulation, where a command has simulations
+  std::map<std::string, std::string> more_key{};  // further entries of BenchRun::key()
 };
 
 /// What a table measures and prints. Cases are measured in order, each once.
@@ -50,6 +53,10 @@ class BenchRun {
       const std::string& table, const std::vector<std::string>& cases,
       const std::vector<std::string>& metrics,
       const std::function<std::vector<Record>(const std::string& case_name)>& measure);
+
+  /// Adds records that follow from measured ones, each behind the last record of its case. They are
+  /// not logged: a resumed run makes them anew.
+  void addDerived(const std::vector<Record>& derived);
 
   /// A record of `table` with the key as its configuration; `samples` not empty.
   Record record(const std::string& table, const std::string& case_name, const std::string& metric,

@@ -1,0 +1,73 @@
+// Knobs of Gaussian mixtures of normals, and the other ways to filter them as rivals. [TAN05]
+#include <fmt/format.h>
+
+#include "host/cli/accuracy_truth.h"
+#include "host/report/accuracy_table.h"
+
+namespace glintmark {
+namespace {
+
+constexpr int kLobeCounts[] = {1, 2, 4, 6, 8};
+constexpr int kProbeCounts[] = {1, 2, 4, 8, 16};
+constexpr int kIterations[] = {1, 2, 4, 8, 16};
+constexpr int kSupersamples[] = {1, 4, 16, 64};
+constexpr SampledTruthSettings kTruth = {PrincipalMetric::kColourError, 480, 256};
+
+struct Rival {
+  const char* name;
+  NormalMethod method;
+};
+constexpr Rival kRivals[] = {{"toksvig", NormalMethod::kToksvig},
+                             {"lean", NormalMethod::kLean},
+                             {"fournier", NormalMethod::kFournier},
+                             {"mip", NormalMethod::kMip},
+                             {"fixed", NormalMethod::kFixed}};
+
+std::vector<AccuracySetting> settings() {
+  const int default_lobes = 4, default_probes = ShadingOptions{}.anisotropy,
+            default_iterations = MixtureOptions{}.max_iterations;
+  std::vector<AccuracySetting> all;
+  const auto add = [&](const std::string& name, bool is_default,
+                       std::function<void(ShadingOptions&)> apply) {
+    all.push_back({name, std::move(apply), is_default ? kAccuracyDefault : kAccuracyKnob});
+  };
+  for (const int lobes : kLobeCounts)
+    add(fmt::format("lobes={}", lobes), lobes == default_lobes,
+        [lobes](ShadingOptions& o) { o.lobes = lobes; });
+  for (const MixtureOrder order :
+       {MixtureOrder::kColours, MixtureOrder::kScanline, MixtureOrder::kIndependent})
+    add(fmt::format("alignment={}", mixtureOrderName(order)),
+        order == ShadingOptions{}.mixture_order,
+        [order](ShadingOptions& o) { o.mixture_order = order; });
+  for (const int probes : kProbeCounts)
+    add(fmt::format("probes={}", probes), probes == default_probes,
+        [probes](ShadingOptions& o) { o.anisotropy = probes; });
+  for (const bool half : {false, true})
+    add(half ? "texels=half" : "texels=float", !half,
+        [half](ShadingOptions& o) { o.half_texels = half; });
+  for (const int iterations : kIterations)
+    add(fmt::format("fit_iterations={}", iterations), iterations == default_iterations,
+        [iterations](ShadingOptions& o) { o.mixture_iterations = iterations; });
+  for (const Rival& rival : kRivals)
+    all.push_back({fmt::format("method={}", rival.name),
+                   [method = rival.method](ShadingOptions& o) { o.normal_method = method; },
+                   kAccuracyRival});
+  for (const int samples : kSupersamples)
+    all.push_back({fmt::format("supersamples={}", samples), {}, kAccuracyRival, samples});
+  return all;
+}
+
+}  // namespace
+
+AccuracyKind gmmAccuracy() {
+  return {"gmm",
+          {"disk/near", "disk/far", "disk/oblique", "armour/near", "armour/far", "desert/near",
+           "desert/far"},
+          {"disk/far", "disk/oblique", "armour/far"},
+          [](BenchRun& run, const std::vector<std::string>& scenes) {
+            return std::unique_ptr<AccuracyEffect>(
+                std::make_unique<SampledSweep>(run, "gmm", scenes, settings(), kTruth));
+          }};
+}
+
+}  // namespace glintmark

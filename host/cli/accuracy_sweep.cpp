@@ -1,0 +1,160 @@
+#include "host/cli/accuracy_sweep.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/cli/tao21_view.h"
+#include "host/core/error.h"
+#include "host/report/accuracy_table.h"
+
+namespace glintmark {
+namespace {
+
+constexpr double kMsPerNs = 1e-6;
+// Longer sampled frames are steady enough to be timed once.
+constexpr int kMostRepeatedSamples = 16;
+
+// Geometric means over stages, repetition by repetition.
+AccuracyTimes meanTimes(const std::vector<AccuracyTimes>& stages) {
+  AccuracyTimes mean = stages.front();
+  const auto share = 1 / static_cast<double>(stages.size());
+  const auto take = [&](std::vector<double> AccuracyTimes::*member) {
+    for (std::size_t rep = 0; rep < (mean.*member).size(); ++rep) {
+      double sum = 0;
+      for (const AccuracyTimes& one : stages) sum += std::log((one.*member)[rep]);
+      (mean.*member)[rep] = std::exp(share * sum);
+    }
+  };
+  take(&AccuracyTimes::ratio);
+  take(&AccuracyTimes::ms);
+  return mean;
+}
+
+}  // namespace
+
+AccuracyStage::AccuracyStage(BenchRun& run, const std::string& name)
+    : run_(run),
+      name_(name),
+      scene_(openScene(run.line().common, name.substr(0, name.find('/')))),
+      view_(scene_.view(name.substr(name.find('/') + 1))),
+      textures_(std::make_shared<NormalTextures>(run.device())) {}
+
+ShadingOptions AccuracyStage::options() const {
+  const ImageSize size = parseSize(run_.options().size);
+  return {.width_px = size.width_px, .height_px = size.height_px, .lanes = run_.info().width};
+}
+
+std::unique_ptr<FrameRenderer> AccuracyStage::unprepared(const ShadingOptions& options) const {
+  return std::make_unique<FrameRenderer>(run_.device(), scene_, view_, options,
+                                         run_.line().common.threads, textures_);
+}
+
+std::unique_ptr<FrameRenderer> AccuracyStage::renderer(const ShadingOptions& options,
+                                                       const View* view, const Scene* scene) const {
+  stopIfInterrupted();
+  auto renderer = std::make_unique<FrameRenderer>(run_.device(), scene == nullptr ? scene_ : *scene,
+                                                  view == nullptr ? view_ : *view, options,
+                                                  run_.line().common.threads, textures_);
+  renderer->prepare();
+  renderer->shade();
+  return renderer;
+}
+
+AccuracySweep::AccuracySweep(BenchRun& run, std::string effect,
+                             const std::vector<std::string>& scenes,
+                             std::vector<AccuracySetting> settings, AccuracyNotes notes)
+    : run_(run),
+      effect_(std::move(effect)),
+      scenes_(scenes),
+      settings_(std::move(settings)),
+      notes_(std::move(notes)) {}
+
+std::vector<std::string> AccuracySweep::cases() const {
+  std::vector<std::string> cases;
+  for (const AccuracySetting& setting : settings_) cases.push_back(effect_ + "/" + setting.name);
+  return cases;
+}
+
+std::vector<AccuracyStage>& AccuracySweep::stages() {
+  if (stages_.empty()) {
+    for (const std::string& scene : scenes_) stages_.emplace_back(run_, scene);
+    for (const AccuracyStage& stage : stages_)
+      standards_.push_back(stage.renderer(stage.options()));
+  }
+  return stages_;
+}
+
+AccuracyTimes AccuracySweep::measureTimes(const AccuracySetting& setting) {
+  std::vector<AccuracyTimes> times(stages().size());
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    FrameRenderer& standard = *standards_[i];
+    if (setting.role == kAccuracyDefault) {
+      shadeMs(standard);
+      for (int rep = 0; rep < run_.options().reps; ++rep) times[i].ms.push_back(shadeMs(standard));
+      times[i].ratio = {1};
+      continue;
+    }
+    ShadingOptions options = stages_[i].options();
+    setting.apply(options);
+    const auto renderer = stages_[i].renderer(options);
+    shadeMs(standard);  // both are warm now
+    for (int rep = 0; rep < run_.options().reps; ++rep) {
+      const double standard_ms = shadeMs(standard);
+      times[i].ms.push_back(shadeMs(*renderer));
+      times[i].ratio.push_back(times[i].ms.back() / standard_ms);
+    }
+  }
+  return meanTimes(times);
+}
+
+AccuracyTimes AccuracySweep::measureSampledTimes(const AccuracySetting& setting) {
+  std::vector<AccuracyTimes> times(stages().size());
+  const int reps = setting.samples > kMostRepeatedSamples ? 1 : run_.options().reps;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    ShadingOptions options = sampledOptions(stages_[i]);
+    const auto standard = stages_[i].renderer(options);
+    options.truth = true;
+    const auto sampled = stages_[i].unprepared(options);
+    sampled->prepare();
+    sampled->addTruthSamples(0, 1);  // compiles
+    for (int rep = 0; rep < reps; ++rep) {
+      const double standard_ms = shadeMs(*standard);
+      const FrameTimes frame =
+          sampled->addTruthSamples(0, static_cast<std::uint32_t>(setting.samples));
+      times[i].ms.push_back(frame.shading_event_ns * kMsPerNs);
+      times[i].ratio.push_back(times[i].ms.back() / standard_ms);
+    }
+  }
+  return meanTimes(times);
+}
+
+AccuracySweep::Measured AccuracySweep::measureSetting(const AccuracySetting& setting) {
+  std::vector<AccuracyFigures> figures_of_stages;
+  for (std::size_t i = 0; i < stages().size(); ++i) {
+    stopIfInterrupted();
+    figures_of_stages.push_back(figures(i, stages_[i], setting));
+  }
+  return {meanFigures(figures_of_stages),
+          setting.samples > 0 ? measureSampledTimes(setting) : measureTimes(setting)};
+}
+
+std::vector<Record> AccuracySweep::measure(const std::string& case_name) {
+  const auto setting = std::ranges::find_if(
+      settings_, [&](const AccuracySetting& one) { return effect_ + "/" + one.name == case_name; });
+  if (setting == settings_.end()) throw Error(fmt::format("no case {}", case_name));
+  const bool is_default = setting->role == kAccuracyDefault;
+  if (is_default && !default_) default_ = measureSetting(*setting);
+  const Measured measured = is_default ? *default_ : measureSetting(*setting);
+  AccuracyNotes notes = notes_;
+  if (is_default) notes.time = "the default itself, measured once for all knobs";
+  if (setting->samples > 0) {
+    const ShadingOptions options = sampledOptions(stages().front());
+    notes.time = fmt::format("kernel events, in turn with the default, both at {}x{}",
+                             options.width_px, options.height_px);
+  }
+  return accuracyRecords(run_, case_name, setting->role, measured.figures, measured.times, notes);
+}
+
+}  // namespace glintmark

@@ -1,0 +1,175 @@
+#include "host/report/accuracy_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/report/case_records.h"
+#include "host/report/pareto.h"
+#include "host/report/text_table.h"
+
+namespace glintmark {
+namespace {
+
+// One case: a setting of an effect.
+struct Setting {
+  std::string case_name, name;  // "glints/ka=16", "ka=16"
+  const Record* error = nullptr;
+  double time_ratio = 1, truth_stderr = 0;
+  bool is_default = false;
+};
+
+struct Effect {
+  std::string name;
+  std::vector<Setting> settings;
+  std::vector<CostAndError> points;  // of the settings, as far as they can be told apart
+};
+
+std::string roleOf(const Record& record) {
+  const auto role = record.config.find("role");
+  return role == record.config.end() ? "" : role->second;
+}
+
+double rounded(double value, double step) {
+  return value > 0 ? std::exp(std::round(std::log(value) / step) * step) : value;
+}
+
+// What was measured cannot tell finer differences apart.
+CostAndError measuredPoint(const Setting& setting) {
+  return {rounded(setting.time_ratio, kAccuracyTimeStep),
+          rounded(std::max(setting.error->value.median, setting.truth_stderr), kAccuracyErrorStep)};
+}
+
+// Effects in the order of the records, each with its settings.
+std::vector<Effect> effectsOf(std::span<const Record> records) {
+  std::vector<Effect> effects;
+  for (const std::string& case_name : caseNames(records)) {
+    const CaseRecords one(records, case_name);
+    const Record *error = one.find("error"), *ratio = one.find("time_ratio");
+    if (error == nullptr || ratio == nullptr) continue;
+    const std::size_t slash = case_name.find('/');
+    const std::string name = case_name.substr(0, slash);
+    if (effects.empty() || effects.back().name != name) effects.push_back({name, {}, {}});
+    const Record* truth = one.find("truth_stderr");
+    effects.back().settings.push_back(
+        {case_name, case_name.substr(slash + 1), error, ratio->value.median,
+         truth == nullptr ? 0 : truth->value.median, roleOf(*error) == kAccuracyDefault});
+    effects.back().points.push_back(measuredPoint(effects.back().settings.back()));
+  }
+  return effects;
+}
+
+std::string timesText(double ratio) {
+  return ratio < 10 ? fmt::format("{:.2f} times", ratio) : fmt::format("{:.0f} times", ratio);
+}
+
+// "takes 1.50 times the time for an error of 0.0123"
+std::string stepText(const Setting& to) {
+  return fmt::format("{}, takes {} its time for an error of {}", to.name, timesText(to.time_ratio),
+                     compactNumber(to.error->value.median));
+}
+
+std::string sentence(const Effect& effect) {
+  const auto found = std::ranges::find(effect.settings, true, &Setting::is_default);
+  if (found == effect.settings.end()) return "";
+  const auto at = static_cast<std::size_t>(found - effect.settings.begin());
+  const auto fastest =
+      static_cast<std::size_t>(std::ranges::min_element(effect.settings, {}, &Setting::time_ratio) -
+                               effect.settings.begin());
+  std::string text = fmt::format("The default of {} has an error of {}", effect.name,
+                                 compactNumber(found->error->value.median));
+  if (effect.points[fastest].cost < effect.points[at].cost)
+    text += fmt::format(" where the fastest setting, {}, has {} in {} of the time",
+                        effect.settings[fastest].name,
+                        compactNumber(effect.settings[fastest].error->value.median),
+                        fmt::format("{:.0f} %", 100 * effect.settings[fastest].time_ratio));
+  if (const auto better = cheapestDominating(effect.points, at))
+    text += fmt::format("; it is beaten: {}", stepText(effect.settings[*better]));
+  const ParetoSteps steps = paretoSteps(effect.points, at);
+  text += steps.up ? fmt::format("; the next step up, {}", stepText(effect.settings[*steps.up]))
+                   : "; no setting that takes longer is closer";
+  text += steps.down
+              ? fmt::format("; the next step down, {}", stepText(effect.settings[*steps.down]))
+              : "; no optimal setting is faster";
+  return text + ".";
+}
+
+// Breaks lines at blanks.
+std::string wrapped(const std::string& text) {
+  std::string result;
+  std::size_t column = 0;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find(' ', begin), text.size());
+    const std::size_t length = end - begin;
+    if (column > 0 && column + 1 + length > kTableColumnsLimit) {
+      result += '\n';
+      column = 0;
+    } else if (column > 0) {
+      result += ' ';
+      ++column;
+    }
+    result.append(text, begin, length);
+    column += length;
+    begin = end + 1;
+  }
+  return result;
+}
+
+std::string effectText(std::span<const Record> records, const Effect& effect) {
+  const bool glints = std::ranges::any_of(effect.settings, [&](const Setting& setting) {
+    return CaseRecords(records, setting.case_name).find("frame_to_frame_error") != nullptr;
+  });
+  std::vector<std::string> header = {effect.name, "time ratio", "ms",     "error", "truth s.e.",
+                                     "optimal",   "bias",       "relMSE", "colour"};
+  if (glints) header.push_back("motion");
+  TextTable table(header);
+  const std::vector<bool> optimal = paretoOptimal(effect.points);
+  for (std::size_t i = 0; i < effect.settings.size(); ++i) {
+    const Setting& setting = effect.settings[i];
+    const CaseRecords one(records, setting.case_name);
+    const std::string role = roleOf(*setting.error);
+    std::vector<std::string> row = {setting.name + (role == kAccuracyDefault ? " *"
+                                                    : role == kAccuracyRival ? " (rival)"
+                                                                             : ""),
+                                    one.text("time_ratio"),
+                                    one.text("time_ms"),
+                                    one.text("error"),
+                                    one.text("truth_stderr"),
+                                    optimal[i] ? "yes" : "",
+                                    one.text("bias"),
+                                    one.text("rel_mse"),
+                                    one.text("colour_error")};
+    if (glints) row.push_back(one.text("frame_to_frame_error"));
+    table.addRow(row);
+  }
+  return table.toString() + wrapped(effect.settings.front().error->note) + "\n" +
+         wrapped(sentence(effect)) + "\n";
+}
+
+}  // namespace
+
+std::vector<Record> accuracyPareto(std::span<const Record> records) {
+  std::vector<Record> made;
+  for (const Effect& effect : effectsOf(records)) {
+    const std::vector<bool> optimal = paretoOptimal(effect.points);
+    for (std::size_t i = 0; i < effect.settings.size(); ++i) {
+      Record record = *effect.settings[i].error;
+      record.metric = "pareto";
+      record.unit = "1";
+      record.value = summarize(std::vector<double>{optimal[i] ? 1.0 : 0.0});
+      record.note = record.valid ? "1: no other setting is both faster and closer" : record.note;
+      made.push_back(std::move(record));
+    }
+  }
+  return made;
+}
+
+std::string accuracyTableText(std::span<const Record> records) {
+  std::string text;
+  for (const Effect& effect : effectsOf(records))
+    text += (text.empty() ? "" : "\n") + effectText(records, effect);
+  return text;
+}
+
+}  // namespace glintmark

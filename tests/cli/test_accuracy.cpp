@@ -1,0 +1,89 @@
+// glintmark accuracy on tiny pictures.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "host/report/atomic_file.h"
+#include "host/report/records.h"
+#include "tests/cli/process.h"
+
+namespace glintmark {
+namespace {
+
+std::vector<std::string> accuracyArguments(const TempFolder& folder, const std::string& effect,
+                                           const std::vector<std::string>& more) {
+  std::vector<std::string> arguments = {"accuracy", effect, "--quiet", "--size",    "48x27",
+                                        "--reps",   "1",    "-o",      folder / "r"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+TEST(Accuracy, ModelsAndSimulations) {
+  const TempFolder folder;
+  const auto arguments = accuracyArguments(
+      folder, "msbrdf",
+      {"--rays", "100000", "--json", folder / "copy.json", "--csv", folder / "copy.csv"});
+  const ProcessResult result = runGlintmark(arguments);
+  ASSERT_EQ(result.exit_code, 0) << result.err << result.out;
+  EXPECT_EQ(result.err, "");
+
+  std::map<std::string, std::set<std::string>> metrics;
+  std::map<std::string, double> errors;
+  double optimal = 0;
+  for (const Record& record : readResults(folder / "r/results.json").records) {
+    EXPECT_EQ(record.table, "accuracy");
+    EXPECT_TRUE(record.valid) << record.case_ << " " << record.metric << ": " << record.note;
+    metrics[record.case_].insert(record.metric);
+    if (record.metric == "error") errors[record.case_] = record.value.median;
+    if (record.metric == "pareto") optimal += record.value.median;
+    EXPECT_EQ(record.config.at("rays"), "100000");
+  }
+  for (const char* name : {"msbrdf/model=lambert", "msbrdf/model=published", "msbrdf/model=refit",
+                           "msbrdf/model=eon", "msbrdf/rays=1e5"}) {
+    for (const char* metric : {"error", "truth_stderr", "time_ratio", "time_ms", "pareto", "bias",
+                               "rel_mse", "colour_error"})
+      EXPECT_TRUE(metrics[name].contains(metric)) << name << " " << metric;
+  }
+  EXPECT_EQ(metrics.size(), 5u);
+  EXPECT_GE(optimal, 1);
+  // Lambert knows nothing of roughness: even so few rays tell that it is worse.
+  EXPECT_GT(errors["msbrdf/model=lambert"], errors["msbrdf/model=eon"]);
+  EXPECT_EQ(readTextFile(folder / "copy.json"), readTextFile(folder / "r/results.json"));
+
+  const std::string table = readTextFile(folder / "r/table.txt");
+  EXPECT_NE(table.find("The default of msbrdf has an error of"), std::string::npos) << table;
+  EXPECT_NE(table.find("Not measured, being beyond --rays 100000: rays=1e6"), std::string::npos)
+      << table;
+  std::istringstream lines(table);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
+
+  // All is there already: nothing is measured again, and nothing doubled.
+  const std::string log = readTextFile(folder / "r/records.jsonl");
+  const std::string results = readTextFile(folder / "r/results.csv");
+  auto resume = arguments;
+  resume.push_back("--resume");
+  EXPECT_EQ(runGlintmark(resume).exit_code, 0);
+  EXPECT_EQ(readTextFile(folder / "r/records.jsonl"), log);
+  EXPECT_EQ(readTextFile(folder / "r/results.csv"), results);
+}
+
+TEST(Accuracy, UnknownNamesListTheKnownOnes) {
+  const TempFolder folder;
+  const ProcessResult effect = runGlintmark(accuracyArguments(folder, "snow", {}));
+  EXPECT_EQ(effect.exit_code, 2);
+  EXPECT_NE(effect.err.find("unknown effect 'snow'; effects are glints, ltc, gmm, msbrdf"),
+            std::string::npos)
+      << effect.err;
+  const ProcessResult scene = runGlintmark(accuracyArguments(folder, "gmm", {"--scene", "snow"}));
+  EXPECT_EQ(scene.exit_code, 2);
+  EXPECT_NE(scene.err.find("unknown scene 'snow'; scenes are disk/near"), std::string::npos)
+      << scene.err;
+  const ProcessResult rays = runGlintmark(accuracyArguments(folder, "msbrdf", {"--rays", "10"}));
+  EXPECT_EQ(rays.exit_code, 2);
+  EXPECT_NE(rays.err.find("--rays 10 is not from 100000"), std::string::npos) << rays.err;
+}
+
+}  // namespace
+}  // namespace glintmark
