@@ -156,7 +156,6 @@ std::vector<Record> accuracyPareto(std::span<const Record> records) {
     for (std::size_t i = 0; i < effect.settings.size(); ++i) {
       Record record = *effect.settings[i].error;
       record.metric = "pareto";
-      record.unit = "1";
       record.value = summarize(std::vector<double>{optimal[i] ? 1.0 : 0.0});
       record.note = record.valid ? "1: no other setting is both faster and closer" : record.note;
       made.push_back(std::move(record));
@@ -168,7 +167,7 @@ std::vector<Record> accuracyPareto(std::span<const Record> records) {
 std::string accuracyTableText(std::span<const Record> records) {
   std::string text;
   for (const Effect& effect : effectsOf(records))
-    text += (text.empty() ? "" : "\n") + effectText(records, effect);
+    text += fmt::format("{}{}", text.empty() ? "" : "\n", effectText(records, effect));
   return text;
 }
 
