@@ -69,12 +69,12 @@ void requireKnownScenes(const std::vector<AccuracyKind>& kinds,
 std::string headText(const BenchRun& run) {
   return fmt::format(
       "What accuracy costs, at {}, {} lanes, {:.0f} GFLOP/s on {:.60}\n"
-      "*: the default; optimal: no other setting is both faster and closer, where times within "
-      "{:.0f} "
-      "%, errors\nwithin {:.0f} % and errors below the truth's own standard error count as equal; "
-      "motion: error of changes\nfrom frame to frame.\n\n",
+      "*: the default; optimal: no other setting is both faster and closer, where times and errors "
+      "within\n{:.0f} % and errors below the truth's own standard error count as equal; motion: "
+      "error "
+      "of changes from\nframe to frame.\n\n",
       run.options().size, run.info().width, run.info().peak_gflops, run.info().device,
-      100 * kAccuracyTimeStep, 100 * kAccuracyErrorStep);
+      100 * kAccuracyStep);
 }
 
 int runAccuracy(const CommandLine& line, const std::vector<std::string>& names,

@@ -34,7 +34,7 @@ constexpr Model kModels[] = {{"lambert", DiffuseModel::kLambert},
                              {"published", DiffuseModel::kPublished},
                              {"refit", DiffuseModel::kRefit},
                              {"eon", DiffuseModel::kEon}};
-constexpr const char* kDefaultModel = "refit";
+constexpr DiffuseModel kDefaultModel = DiffuseModel::kEon;  // of the scenes
 
 struct RayCount {
   const char* name;
@@ -227,8 +227,8 @@ std::vector<Record> MsbrdfSweep::measureModel(const std::string& case_name, cons
     all.push_back(figures(
         truth, modelImage(model.model, truth.alpha, std::cos(glm::radians(truth.incidence_deg)))));
   AccuracyFigures mean = meanFigures(all);
-  const bool is_default = model.name == std::string_view(kDefaultModel);
-  const auto standard = frame(sceneOf(DiffuseModel::kRefit)), own = frame(sceneOf(model.model));
+  const bool is_default = model.model == kDefaultModel;
+  const auto standard = frame(sceneOf(kDefaultModel)), own = frame(sceneOf(model.model));
   if (!isSane(own->readRadiance())) mean.failure = "radiance is negative or not finite";
   AccuracyTimes times;
   for (int rep = 0; rep < run_.options().reps; ++rep) {
@@ -243,7 +243,7 @@ std::vector<Record> MsbrdfSweep::measureModel(const std::string& case_name, cons
 }
 
 std::vector<Record> MsbrdfSweep::measureRays(const std::string& case_name, std::uint64_t rays) {
-  const auto standard = frame(sceneOf(DiffuseModel::kRefit));
+  const auto standard = frame(sceneOf(kDefaultModel));
   std::vector<AccuracyFigures> all;
   AccuracyTimes times;
   for (const Truth& truth : truths()) {

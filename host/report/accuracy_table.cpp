@@ -31,14 +31,14 @@ std::string roleOf(const Record& record) {
   return role == record.config.end() ? "" : role->second;
 }
 
-double rounded(double value, double step) {
-  return value > 0 ? std::exp(std::round(std::log(value) / step) * step) : value;
+double rounded(double value) {
+  return value > 0 ? std::exp(std::round(std::log(value) / kAccuracyStep) * kAccuracyStep) : value;
 }
 
 // What was measured cannot tell finer differences apart.
 CostAndError measuredPoint(const Setting& setting) {
-  return {rounded(setting.time_ratio, kAccuracyTimeStep),
-          rounded(std::max(setting.error->value.median, setting.truth_stderr), kAccuracyErrorStep)};
+  return {rounded(setting.time_ratio),
+          rounded(std::max(setting.error->value.median, setting.truth_stderr))};
 }
 
 // Effects in the order of the records, each with its settings.

@@ -15,9 +15,9 @@ inline constexpr const char* kAccuracyRival = "rival";
 
 /// A record `pareto` (0 or 1) of every case that has `error` and `time_ratio`, each effect apart.
 /// Differences that were not measured count for nothing: errors below the truth's own standard
-/// error are equal, and errors and times are rounded to steps of these shares.
+/// error are equal, and errors and times are rounded to steps of kAccuracyStep around 1.
 std::vector<Record> accuracyPareto(std::span<const Record> records);
-inline constexpr double kAccuracyTimeStep = 0.02, kAccuracyErrorStep = 0.05;
+inline constexpr double kAccuracyStep = 0.05;
 
 /// One table for each effect, at most kTableColumnsLimit columns, with a sentence below it: what
 /// the default buys, and what the next optimal step up or down would cost.
