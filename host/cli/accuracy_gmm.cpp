@@ -63,7 +63,7 @@ AccuracyKind gmmAccuracy() {
   return {"gmm",
           {"disk/near", "disk/far", "disk/oblique", "armour/near", "armour/far", "desert/near",
            "desert/far"},
-          {"disk/far", "disk/oblique", "armour/far"},
+          {"disk/far", "disk/oblique", "armour/far", "desert/far"},
           [](BenchRun& run, const std::vector<std::string>& scenes) {
             return std::unique_ptr<AccuracyEffect>(
                 std::make_unique<SampledSweep>(run, "gmm", scenes, settings(), kTruth));
