@@ -108,7 +108,7 @@ int runAccuracy(const CommandLine& line, const std::vector<std::string>& names,
 void addAccuracyCommand(CLI::App& app, CommandLine& line) {
   auto options = std::make_shared<BenchOptions>();
   options->folder = "results/latest/accuracy";
-  options->reps = 5;
+  options->reps = 9;
   options->rays = std::uint64_t{1} << 24;
   auto effects = std::make_shared<std::vector<std::string>>();
   CLI::App* command =
@@ -122,7 +122,7 @@ void addAccuracyCommand(CLI::App& app, CommandLine& line) {
                    "Only these scenes, SCENE or SCENE/VIEW; repeatable (default: a few of each)")
       ->allow_extra_args(false);
   command->add_option("--size", options->size, "Image size (default: 1920x1080)")->type_name("WxH");
-  command->add_option("--reps", options->reps, "Repetitions of every time (default: 5)");
+  command->add_option("--reps", options->reps, "Repetitions of every time (default: 9)");
   command->add_option("--rays", options->rays,
                       "Most rays of one simulation of msbrdf (default: 16777216)");
   command
