@@ -230,12 +230,7 @@ std::vector<Record> MsbrdfSweep::measureModel(const std::string& case_name, cons
   const bool is_default = model.model == kDefaultModel;
   const auto standard = frame(sceneOf(kDefaultModel)), own = frame(sceneOf(model.model));
   if (!isSane(own->readRadiance())) mean.failure = "radiance is negative or not finite";
-  AccuracyTimes times;
-  for (int rep = 0; rep < run_.options().reps; ++rep) {
-    const double standard_ms = shadeMs(*standard);
-    times.ms.push_back(shadeMs(*own));
-    times.ratio.push_back(times.ms.back() / standard_ms);
-  }
+  AccuracyTimes times = timesInTurn(*standard, *own, run_.options().reps);
   if (is_default) times.ratio = {1};
   return accuracyRecords(run_, case_name, is_default ? kAccuracyDefault : kAccuracyKnob, mean,
                          times,

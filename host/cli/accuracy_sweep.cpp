@@ -15,10 +15,13 @@ namespace {
 constexpr double kMsPerNs = 1e-6;
 // Longer sampled frames are steady enough to be timed once.
 constexpr int kMostRepeatedSamples = 16;
+constexpr double kLeastTime_ms = 600;
+constexpr int kMostRounds = 101;
 
-// Geometric means over stages, repetition by repetition.
+// Geometric means over stages, repetition by repetition, as many as each has.
 AccuracyTimes meanTimes(const std::vector<AccuracyTimes>& stages) {
-  AccuracyTimes mean = stages.front();
+  AccuracyTimes mean =
+      *std::ranges::min_element(stages, {}, [](const AccuracyTimes& one) { return one.ms.size(); });
   const auto share = 1 / static_cast<double>(stages.size());
   const auto take = [&](std::vector<double> AccuracyTimes::*member) {
     for (std::size_t rep = 0; rep < (mean.*member).size(); ++rep) {
@@ -33,6 +36,20 @@ AccuracyTimes meanTimes(const std::vector<AccuracyTimes>& stages) {
 }
 
 }  // namespace
+
+AccuracyTimes timesInTurn(FrameRenderer& standard, FrameRenderer& setting, int reps) {
+  // Short frames are repeated, so that no passing disturbance lasts through half of them.
+  const double pair_ms = shadeMs(standard) + shadeMs(setting);
+  const int rounds =
+      std::max(reps, static_cast<int>(std::min<double>(kMostRounds, kLeastTime_ms / pair_ms)));
+  AccuracyTimes times;
+  for (int round = 0; round < rounds; ++round) {
+    const double standard_ms = shadeMs(standard);
+    times.ms.push_back(shadeMs(setting));
+    times.ratio.push_back(times.ms.back() / standard_ms);
+  }
+  return times;
+}
 
 AccuracyStage::AccuracyStage(BenchRun& run, const std::string& name)
     : run_(run),
@@ -89,22 +106,14 @@ std::vector<AccuracyStage>& AccuracySweep::stages() {
 AccuracyTimes AccuracySweep::measureTimes(const AccuracySetting& setting) {
   std::vector<AccuracyTimes> times(stages().size());
   for (std::size_t i = 0; i < times.size(); ++i) {
-    FrameRenderer& standard = *standards_[i];
     if (setting.role == kAccuracyDefault) {
-      shadeMs(standard);
-      for (int rep = 0; rep < run_.options().reps; ++rep) times[i].ms.push_back(shadeMs(standard));
-      times[i].ratio = {1};
+      times[i].ms = timesInTurn(*standards_[i], *standards_[i], run_.options().reps).ms;
+      times[i].ratio.assign(times[i].ms.size(), 1);
       continue;
     }
     ShadingOptions options = stages_[i].options();
     setting.apply(options);
-    const auto renderer = stages_[i].renderer(options);
-    shadeMs(standard);  // both are warm now
-    for (int rep = 0; rep < run_.options().reps; ++rep) {
-      const double standard_ms = shadeMs(standard);
-      times[i].ms.push_back(shadeMs(*renderer));
-      times[i].ratio.push_back(times[i].ms.back() / standard_ms);
-    }
+    times[i] = timesInTurn(*standards_[i], *stages_[i].renderer(options), run_.options().reps);
   }
   return meanTimes(times);
 }

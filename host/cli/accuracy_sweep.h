@@ -12,6 +12,10 @@
 
 namespace glintmark {
 
+/// Times of `setting` over those of `standard`, frames shaded in turn, both prepared: at least
+/// `reps` of each, more where frames are short.
+AccuracyTimes timesInTurn(FrameRenderer& standard, FrameRenderer& setting, int reps);
+
 /// One value of a knob.
 struct AccuracySetting {
   std::string name;                                 // "ka=16"
