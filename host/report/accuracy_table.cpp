@@ -31,14 +31,26 @@ std::string roleOf(const Record& record) {
   return role == record.config.end() ? "" : role->second;
 }
 
-double rounded(double value) {
-  return value > 0 ? std::exp(std::round(std::log(value) / kAccuracyStep) * kAccuracyStep) : value;
+// `value` in steps of kAccuracyStep from `anchor`; less than a step off is no difference.
+double inSteps(double value, double anchor) {
+  if (!(value > 0 && anchor > 0)) return value;
+  const double steps = std::log(value / anchor) / kAccuracyStep;
+  return std::abs(steps) < 1 ? anchor : anchor * std::exp(std::round(steps) * kAccuracyStep);
 }
 
-// What was measured cannot tell finer differences apart.
-CostAndError measuredPoint(const Setting& setting) {
-  return {rounded(setting.time_ratio),
-          rounded(std::max(setting.error->value.median, setting.truth_stderr))};
+double shownError(const Setting& setting) {
+  return std::max(setting.error->value.median, setting.truth_stderr);
+}
+
+// The settings as far as what was measured can tell them from the default and from each other.
+std::vector<CostAndError> measuredPoints(std::span<const Setting> settings) {
+  const auto standard = std::ranges::find(settings, true, &Setting::is_default);
+  const Setting& anchor = standard == settings.end() ? settings.front() : *standard;
+  std::vector<CostAndError> points;
+  for (const Setting& setting : settings)
+    points.push_back({inSteps(setting.time_ratio, anchor.time_ratio),
+                      inSteps(shownError(setting), shownError(anchor))});
+  return points;
 }
 
 // Effects in the order of the records, each with its settings.
@@ -55,8 +67,8 @@ std::vector<Effect> effectsOf(std::span<const Record> records) {
     effects.back().settings.push_back(
         {case_name, case_name.substr(slash + 1), error, ratio->value.median,
          truth == nullptr ? 0 : truth->value.median, roleOf(*error) == kAccuracyDefault});
-    effects.back().points.push_back(measuredPoint(effects.back().settings.back()));
   }
+  for (Effect& effect : effects) effect.points = measuredPoints(effect.settings);
   return effects;
 }
 

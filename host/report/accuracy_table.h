@@ -15,7 +15,7 @@ inline constexpr const char* kAccuracyRival = "rival";
 
 /// A record `pareto` (0 or 1) of every case that has `error` and `time_ratio`, each effect apart.
 /// Differences that were not measured count for nothing: errors below the truth's own standard
-/// error are equal, and errors and times are rounded to steps of kAccuracyStep around 1.
+/// error are equal, and errors and times go in steps of kAccuracyStep from the default's.
 std::vector<Record> accuracyPareto(std::span<const Record> records);
 inline constexpr double kAccuracyStep = 0.05;
 

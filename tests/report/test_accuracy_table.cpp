@@ -63,6 +63,19 @@ TEST(AccuracyTable, WhatWasNotMeasuredDecidesNothing) {
   EXPECT_EQ(paretoOf(made, "gmm/lobes=6"), 0);
 }
 
+TEST(AccuracyTable, LessThanAStepFromTheDefaultIsNoDifference) {
+  std::vector<Record> records;
+  addCase(records, "ltc/table=64", kAccuracyDefault, 1, 0.0100);
+  addCase(records, "ltc/table=32", kAccuracyKnob, 0.96, 0.0104);
+  addCase(records, "ltc/table=8", kAccuracyKnob, 0.96, 0.0200);
+  addCase(records, "ltc/table=16", kAccuracyKnob, 0.94, 0.0100);
+  EXPECT_EQ(paretoOf(accuracyPareto(records), "ltc/table=64"), 0);
+  records.resize(records.size() - 4);
+  EXPECT_EQ(paretoOf(accuracyPareto(records), "ltc/table=64"), 1);
+  EXPECT_EQ(paretoOf(accuracyPareto(records), "ltc/table=32"), 1);
+  EXPECT_EQ(paretoOf(accuracyPareto(records), "ltc/table=8"), 0);
+}
+
 TEST(AccuracyTable, SaysWhatTheStepsCost) {
   const std::string text = accuracyTableText(sampleSweep());
   std::string line = text;
