@@ -69,6 +69,39 @@ TEST(Accuracy, ModelsAndSimulations) {
   EXPECT_EQ(readTextFile(folder / "r/results.csv"), results);
 }
 
+TEST(Accuracy, FramesAgainstASupersampledTruth) {
+  const TempFolder folder;
+  // A small map and few lanes: fitted and compiled fast.
+  const ProcessResult result =
+      runGlintmark(accuracyArguments(folder, "gmm",
+                                     {"--scene", "disk/oblique", "--width", "4", "--set",
+                                      "material.silver.normal_map.size_px=64"}));
+  ASSERT_EQ(result.exit_code, 0) << result.err << result.out;
+  std::map<std::string, double> errors, ratios, truth;
+  for (const Record& record : readResults(folder / "r/results.json").records) {
+    EXPECT_TRUE(record.valid) << record.case_ << " " << record.metric << ": " << record.note;
+    if (record.metric == "error") errors[record.case_] = record.value.median;
+    if (record.metric == "time_ratio") ratios[record.case_] = record.value.median;
+    if (record.metric == "truth_stderr") truth[record.case_] = record.value.median;
+  }
+  EXPECT_EQ(errors.size(), 29u);
+  // The default is one measurement under every knob.
+  for (const char* name : {"gmm/lobes=4", "gmm/alignment=colours", "gmm/probes=16",
+                           "gmm/texels=float", "gmm/fit_iterations=4"}) {
+    EXPECT_EQ(ratios[name], 1) << name;
+    EXPECT_EQ(errors[name], errors["gmm/lobes=4"]) << name;
+  }
+  EXPECT_LT(errors["gmm/lobes=4"], errors["gmm/method=mip"]);
+  EXPECT_LT(errors["gmm/lobes=4"], errors["gmm/method=fixed"]);
+  // Samples that the truth has not used come closer and closer to it.
+  EXPECT_LT(errors["gmm/supersamples=16"], errors["gmm/supersamples=1"]);
+  EXPECT_LT(errors["gmm/supersamples=64"], errors["gmm/supersamples=16"]);
+  EXPECT_GT(truth["gmm/lobes=4"], 0);
+  EXPECT_GT(ratios["gmm/supersamples=64"], ratios["gmm/supersamples=4"]);
+  std::istringstream lines(readTextFile(folder / "r/table.txt"));
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
+}
+
 TEST(Accuracy, UnknownNamesListTheKnownOnes) {
   const TempFolder folder;
   const ProcessResult effect = runGlintmark(accuracyArguments(folder, "snow", {}));
