@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "host/report/case_records.h"
 #include "host/report/pareto.h"
@@ -26,11 +27,6 @@ struct Effect {
   std::vector<CostAndError> points;  // of the settings, as far as they can be told apart
 };
 
-std::string roleOf(const Record& record) {
-  const auto role = record.config.find("role");
-  return role == record.config.end() ? "" : role->second;
-}
-
 // `value` in steps of kAccuracyStep from `anchor`; less than a step off is no difference.
 double inSteps(double value, double anchor) {
   if (!(value > 0 && anchor > 0)) return value;
@@ -38,7 +34,9 @@ double inSteps(double value, double anchor) {
   return std::abs(steps) < 1 ? anchor : anchor * std::exp(std::round(steps) * kAccuracyStep);
 }
 
+// Not a number if the measurement is not valid: such a setting is neither better nor worse.
 double shownError(const Setting& setting) {
+  if (!setting.error->valid) return std::numeric_limits<double>::quiet_NaN();
   return std::max(setting.error->value.median, setting.truth_stderr);
 }
 
@@ -66,7 +64,7 @@ std::vector<Effect> effectsOf(std::span<const Record> records) {
     const Record* truth = one.find("truth_stderr");
     effects.back().settings.push_back(
         {case_name, case_name.substr(slash + 1), error, ratio->value.median,
-         truth == nullptr ? 0 : truth->value.median, roleOf(*error) == kAccuracyDefault});
+         truth == nullptr ? 0 : truth->value.median, accuracyRole(*error) == kAccuracyDefault});
   }
   for (Effect& effect : effects) effect.points = measuredPoints(effect.settings);
   return effects;
@@ -140,7 +138,7 @@ std::string effectText(std::span<const Record> records, const Effect& effect) {
   for (std::size_t i = 0; i < effect.settings.size(); ++i) {
     const Setting& setting = effect.settings[i];
     const CaseRecords one(records, setting.case_name);
-    const std::string role = roleOf(*setting.error);
+    const std::string role = accuracyRole(*setting.error);
     std::vector<std::string> row = {setting.name + (role == kAccuracyDefault ? " *"
                                                     : role == kAccuracyRival ? " (rival)"
                                                                              : ""),
@@ -160,6 +158,17 @@ std::string effectText(std::span<const Record> records, const Effect& effect) {
 }
 
 }  // namespace
+
+std::string accuracyRole(const Record& record) {
+  const auto role = record.config.find("role");
+  return role == record.config.end() ? "" : role->second;
+}
+
+std::string accuracySentence(std::span<const Record> records, const std::string& effect) {
+  const std::vector<Effect> effects = effectsOf(records);
+  const auto found = std::ranges::find(effects, effect, &Effect::name);
+  return found == effects.end() ? "" : sentence(*found);
+}
 
 std::vector<Record> accuracyPareto(std::span<const Record> records) {
   std::vector<Record> made;

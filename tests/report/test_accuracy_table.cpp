@@ -97,6 +97,16 @@ TEST(AccuracyTable, SaysWhatTheStepsCost) {
   for (std::string one; std::getline(lines, one);) EXPECT_LE(one.size(), 100u) << one;
 }
 
+TEST(AccuracyTable, WhatIsNotValidIsNeverOptimalAndBeatsNothing) {
+  std::vector<Record> records = sampleSweep();
+  addCase(records, "ltc/edges=acos", kAccuracyKnob, 0.5, 0);
+  for (Record& record : records)
+    if (record.case_ == "ltc/edges=acos") record.valid = false;
+  const std::vector<Record> made = accuracyPareto(records);
+  EXPECT_EQ(paretoOf(made, "ltc/edges=acos"), 0);
+  EXPECT_EQ(paretoOf(made, "ltc/method=exact"), 1);
+}
+
 TEST(AccuracyTable, ABeatenDefaultIsNamed) {
   std::vector<Record> records;
   addCase(records, "ltc/edges=fit", kAccuracyDefault, 1, 0.05);

@@ -80,12 +80,17 @@
       if (!points.has(name)) points.set(name, { name, knob: name.split("=")[0] });
       const point = points.get(name);
       point[r.metric] = r.median;
-      if (r.config && r.config.role === "rival") point.rival = true;
+      if (r.config && r.config.role) point.role = r.config.role;
     }
     const all = [...points.values()]
       .filter((p) => p.time_ratio > 0 && p.error > 0)
       .map((p) => ({ ...p, x: p.time_ratio, y: p.error }));
-    const front = all.filter((p) => p.pareto === 1).sort((a, b) => a.x - b.x);
+    // The default stands under every knob that has it, but is one point of the front.
+    const standard = all.find((p) => p.role === "default");
+    const front = all
+      .filter((p) => p.pareto === 1 && (p.role !== "default" || p === standard))
+      .map((p) => (p === standard ? { ...p, name: "default" } : p))
+      .sort((a, b) => a.x - b.x);
     const knobs = [...new Set(all.map((p) => p.knob))];
     const datasets = [{
       label: "Pareto front", data: front, pareto: true, showLine: true, borderColor: colour("--ink"),
@@ -94,7 +99,7 @@
     }];
     knobs.forEach((knob, i) => {
       const data = all.filter((p) => p.knob === knob);
-      const rival = data.some((p) => p.rival);
+      const rival = data.some((p) => p.role === "rival");
       datasets.push({
         label: rival ? `${knob} (rival)` : knob, data, showLine: data.length > 2, borderWidth: 1.5,
         borderColor: palette[i % palette.length], backgroundColor: palette[i % palette.length],
