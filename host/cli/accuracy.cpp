@@ -16,6 +16,11 @@ namespace {
 
 constexpr std::uint64_t kLeastRays = 100'000, kMostRays = 1'000'000'000'000;
 
+// What was asked for; empty lists stand for all.
+struct Selection {
+  std::vector<std::string> effects, knobs;
+};
+
 // In the order in which they are measured and printed.
 std::vector<AccuracyKind> allKinds() {
   return {glintsAccuracy(), ltcAccuracy(), gmmAccuracy(), msbrdfAccuracy()};
@@ -66,6 +71,28 @@ void requireKnownScenes(const std::vector<AccuracyKind>& kinds,
       throw Error(fmt::format("unknown scene '{}'; scenes are {}", name, fmt::join(known, ", ")));
 }
 
+void requireKnownKnobs(const std::vector<AccuracyKind>& kinds,
+                       const std::vector<std::string>& names) {
+  std::vector<std::string> known;
+  for (const AccuracyKind& kind : kinds)
+    for (const std::string& knob : kind.knobs)
+      if (std::ranges::find(known, knob) == known.end()) known.push_back(knob);
+  for (const std::string& name : names)
+    if (std::ranges::find(known, name) == known.end())
+      throw Error(fmt::format("unknown knob '{}'; knobs are {}", name, fmt::join(known, ", ")));
+}
+
+// The cases whose knob was asked for; all if none was.
+std::vector<std::string> chosenCases(const AccuracyEffect& effect,
+                                     const std::vector<std::string>& knobs) {
+  std::vector<std::string> cases = effect.cases();
+  if (!knobs.empty())
+    std::erase_if(cases, [&](const std::string& name) {
+      return std::ranges::find(knobs, knobOf(name)) == knobs.end();
+    });
+  return cases;
+}
+
 std::string headText(const BenchRun& run) {
   return fmt::format(
       "What accuracy costs, at {}, {} lanes, {:.0f} GFLOP/s on {:.60}\n"
@@ -77,14 +104,17 @@ std::string headText(const BenchRun& run) {
       100 * kAccuracyStep);
 }
 
-int runAccuracy(const CommandLine& line, const std::vector<std::string>& names,
-                BenchOptions options) {
-  std::vector<AccuracyKind> kinds = chooseKinds(names);
+int runAccuracy(const CommandLine& line, const Selection& selection, BenchOptions options) {
+  std::vector<AccuracyKind> kinds = chooseKinds(selection.effects);
   requireKnownScenes(kinds, options.scenes);
+  requireKnownKnobs(kinds, selection.knobs);
   if (options.rays < kLeastRays || options.rays > kMostRays)
     throw Error(fmt::format("--rays {} is not from {} to {}", options.rays, kLeastRays, kMostRays));
-  std::erase_if(
-      kinds, [&](const AccuracyKind& kind) { return chosenScenes(kind, options.scenes).empty(); });
+  std::erase_if(kinds, [&](const AccuracyKind& kind) {
+    const bool turned = selection.knobs.empty() ||
+                        std::ranges::find_first_of(kind.knobs, selection.knobs) != kind.knobs.end();
+    return !turned || chosenScenes(kind, options.scenes).empty();
+  });
   options.more_key = {
       {"rays", std::to_string(options.rays)},
       {"scenes",
@@ -94,7 +124,8 @@ int runAccuracy(const CommandLine& line, const std::vector<std::string>& names,
   std::string left_out;
   for (const AccuracyKind& kind : kinds) {
     const auto effect = kind.make(run, chosenScenes(kind, options.scenes));
-    run.measureCases(kAccuracyTable, effect->cases(), {"error", "truth_stderr", "time_ratio"},
+    run.measureCases(kAccuracyTable, chosenCases(*effect, selection.knobs),
+                     {"error", "truth_stderr", "time_ratio"},
                      [&](const std::string& name) { return effect->measure(name); });
     if (const std::string left = effect->leftOut(); !left.empty()) left_out += "\n" + left + "\n";
   }
@@ -110,16 +141,21 @@ void addAccuracyCommand(CLI::App& app, CommandLine& line) {
   options->folder = "results/latest/accuracy";
   options->reps = 9;
   options->rays = std::uint64_t{1} << 24;
-  auto effects = std::make_shared<std::vector<std::string>>();
+  auto selection = std::make_shared<Selection>();
   CLI::App* command =
       app.add_subcommand("accuracy", "Error against time for every knob of every effect");
   command
-      ->add_option("effect", *effects,
+      ->add_option("effect", selection->effects,
                    fmt::format("{} (default: all)", fmt::join(effectNames(), ", ")))
       ->type_name("EFFECT");
   command
       ->add_option("--scene", options->scenes,
                    "Only these scenes, SCENE or SCENE/VIEW; repeatable (default: a few of each)")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--knob", selection->knobs,
+                   "Only the settings of this knob, ka or mc_samples, say; repeatable (default: "
+                   "all)")
       ->allow_extra_args(false);
   command->add_option("--size", options->size, "Image size (default: 1920x1080)")->type_name("WxH");
   command->add_option("--reps", options->reps, "Repetitions of every time (default: 9)");
@@ -138,10 +174,11 @@ void addAccuracyCommand(CLI::App& app, CommandLine& line) {
       "Examples:\n"
       "  glintmark accuracy\n"
       "  glintmark accuracy glints --scene dress/grazing --reps 15\n"
+      "  glintmark accuracy gmm --knob lobes --knob probes\n"
       "  glintmark accuracy ltc gmm --json accuracy.json\n"
       "  glintmark accuracy msbrdf --rays 500000000");
-  command->callback([options, effects, &line] {
-    line.action = [options, effects, &line] { return runAccuracy(line, *effects, *options); };
+  command->callback([options, selection, &line] {
+    line.action = [options, selection, &line] { return runAccuracy(line, *selection, *options); };
   });
 }
 

@@ -24,6 +24,12 @@ std::optional<double> geometricMeanOf(std::span<const AccuracyFigures> figures,
 
 }  // namespace
 
+std::string knobOf(const std::string& setting) {
+  const std::size_t slash = setting.find('/');
+  const std::size_t begin = slash == std::string::npos ? 0 : slash + 1;
+  return setting.substr(begin, setting.find('=', begin) - begin);
+}
+
 AccuracyFigures meanFigures(std::span<const AccuracyFigures> figures) {
   if (figures.empty()) throw Error("no scene to take a mean over");
   AccuracyFigures mean;

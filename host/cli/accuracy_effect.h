@@ -52,8 +52,12 @@ class AccuracyEffect {
   virtual std::string leftOut() const { return ""; }
 };
 
+/// The knob of a setting or case: "ka" of "ka=16" and of "glints/ka=16".
+std::string knobOf(const std::string& setting);
+
 struct AccuracyKind {
   std::string name;
+  std::vector<std::string> knobs;           // rivals too
   std::vector<std::string> scenes;          // "scene/view"
   std::vector<std::string> default_scenes;  // of a run that names none
   std::unique_ptr<AccuracyEffect> (*make)(BenchRun& run, const std::vector<std::string>& scenes);

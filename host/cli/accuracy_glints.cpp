@@ -215,6 +215,7 @@ std::vector<std::string> knownScenes() {
 
 AccuracyKind glintsAccuracy() {
   return {"glints",
+          knobsOf(settings(1)),
           knownScenes(),
           {"screen_plane/grazing", "snow/grazing"},
           [](BenchRun& run, const std::vector<std::string>& scenes) {

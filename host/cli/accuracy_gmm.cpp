@@ -61,6 +61,7 @@ std::vector<AccuracySetting> settings() {
 
 AccuracyKind gmmAccuracy() {
   return {"gmm",
+          knobsOf(settings()),
           {"disk/near", "disk/far", "disk/oblique", "armour/near", "armour/far", "desert/near",
            "desert/far"},
           {"disk/far", "disk/oblique", "armour/far", "desert/far"},

@@ -67,6 +67,7 @@ std::vector<AccuracySetting> settings(int threads) {
 
 AccuracyKind ltcAccuracy() {
   return {"ltc",
+          knobsOf(settings(1)),
           {"area_plane/front", "area_knot/near", "area_knot/middle", "area_knot/far",
            "area_cloth/near", "area_cloth/middle", "area_cloth/far", "area_glass/near",
            "area_glass/middle", "area_glass/far"},

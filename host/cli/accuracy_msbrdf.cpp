@@ -272,6 +272,7 @@ std::vector<Record> MsbrdfSweep::measure(const std::string& case_name) {
 AccuracyKind msbrdfAccuracy() {
   return {
       "msbrdf",
+      {"model", "rays"},
       {"rough_plane/oblique", "rough_knot/front"},
       {"rough_plane/oblique"},
       [](BenchRun& run, const std::vector<std::string>& scenes) {

@@ -51,6 +51,14 @@ AccuracyTimes timesInTurn(FrameRenderer& standard, FrameRenderer& setting, int r
   return times;
 }
 
+std::vector<std::string> knobsOf(const std::vector<AccuracySetting>& settings) {
+  std::vector<std::string> knobs;
+  for (const AccuracySetting& setting : settings)
+    if (const std::string knob = knobOf(setting.name); knobs.empty() || knobs.back() != knob)
+      knobs.push_back(knob);
+  return knobs;
+}
+
 AccuracyStage::AccuracyStage(BenchRun& run, const std::string& name)
     : run_(run),
       name_(name),

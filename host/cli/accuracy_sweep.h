@@ -24,6 +24,9 @@ struct AccuracySetting {
   int samples = 0;  // > 0: so many samples a pixel of the ground truth's kernel instead
 };
 
+/// Their knobs, each once, in order.
+std::vector<std::string> knobsOf(const std::vector<AccuracySetting>& settings);
+
 /// A scene in one of its views, with what renderers of it share.
 class AccuracyStage {
  public:

@@ -1,6 +1,7 @@
 // glintmark accuracy on tiny pictures.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <map>
 #include <set>
 #include <sstream>
@@ -18,6 +19,16 @@ std::vector<std::string> accuracyArguments(const TempFolder& folder, const std::
                                         "--reps",   "1",    "-o",      folder / "r"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
+}
+
+// Medians of one metric by case.
+std::map<std::string, double> figuresOf(const TempFolder& folder, const std::string& metric) {
+  std::map<std::string, double> figures;
+  for (const Record& record : readResults(folder / "r/results.json").records) {
+    EXPECT_TRUE(record.valid) << record.case_ << " " << record.metric << ": " << record.note;
+    if (record.metric == metric) figures[record.case_] = record.value.median;
+  }
+  return figures;
 }
 
 TEST(Accuracy, ModelsAndSimulations) {
@@ -72,22 +83,16 @@ TEST(Accuracy, ModelsAndSimulations) {
 TEST(Accuracy, FramesAgainstASupersampledTruth) {
   const TempFolder folder;
   // A small map and few lanes: fitted and compiled fast.
-  const ProcessResult result =
-      runGlintmark(accuracyArguments(folder, "gmm",
-                                     {"--scene", "disk/oblique", "--width", "4", "--set",
-                                      "material.silver.normal_map.size_px=64"}));
+  const ProcessResult result = runGlintmark(accuracyArguments(
+      folder, "gmm",
+      {"--scene", "disk/oblique", "--width", "4", "--set", "material.silver.normal_map.size_px=64",
+       "--knob", "lobes", "--knob", "texels", "--knob", "method", "--knob", "supersamples"}));
   ASSERT_EQ(result.exit_code, 0) << result.err << result.out;
-  std::map<std::string, double> errors, ratios, truth;
-  for (const Record& record : readResults(folder / "r/results.json").records) {
-    EXPECT_TRUE(record.valid) << record.case_ << " " << record.metric << ": " << record.note;
-    if (record.metric == "error") errors[record.case_] = record.value.median;
-    if (record.metric == "time_ratio") ratios[record.case_] = record.value.median;
-    if (record.metric == "truth_stderr") truth[record.case_] = record.value.median;
-  }
-  EXPECT_EQ(errors.size(), 29u);
+  auto errors = figuresOf(folder, "error"), ratios = figuresOf(folder, "time_ratio"),
+       truth = figuresOf(folder, "truth_stderr");
+  EXPECT_EQ(errors.size(), 16u);
   // The default is one measurement under every knob.
-  for (const char* name : {"gmm/lobes=4", "gmm/alignment=colours", "gmm/probes=16",
-                           "gmm/texels=float", "gmm/fit_iterations=4"}) {
+  for (const char* name : {"gmm/lobes=4", "gmm/texels=float"}) {
     EXPECT_EQ(ratios[name], 1) << name;
     EXPECT_EQ(errors[name], errors["gmm/lobes=4"]) << name;
   }
@@ -102,6 +107,40 @@ TEST(Accuracy, FramesAgainstASupersampledTruth) {
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
 }
 
+TEST(Accuracy, GlintsAgainstFramesOfMethodExact) {
+  const TempFolder folder;
+  const ProcessResult result = runGlintmark(accuracyArguments(
+      folder, "glints",
+      {"--scene", "screen_plane/grazing", "--width", "4", "--knob", "ka", "--knob", "grids"}));
+  ASSERT_EQ(result.exit_code, 0) << result.err << result.out;
+  auto errors = figuresOf(folder, "error");
+  EXPECT_EQ(errors.size(), 9u);
+  EXPECT_EQ(figuresOf(folder, "frame_to_frame_error").size(), 9u);
+  EXPECT_EQ(figuresOf(folder, "distribution_distance"), errors);
+  EXPECT_EQ(errors["glints/grids=2"], errors["glints/ka=16"]);
+  // A footprint cut short is brighter here and darker there: other values, other changes.
+  EXPECT_GT(errors["glints/ka=1"], errors["glints/ka=16"]);
+  auto motion = figuresOf(folder, "frame_to_frame_error");
+  EXPECT_GT(motion["glints/ka=1"], motion["glints/ka=16"]);
+}
+
+TEST(Accuracy, AreaLightsAndMonteCarlo) {
+  const TempFolder folder;
+  const ProcessResult result =
+      runGlintmark(accuracyArguments(folder, "ltc",
+                                     {"--scene", "area_plane/front", "--width", "4", "--knob",
+                                      "horizon", "--knob", "edges", "--knob", "mc_samples"}));
+  ASSERT_EQ(result.exit_code, 0) << result.err << result.out;
+  auto errors = figuresOf(folder, "error");
+  EXPECT_EQ(errors.size(), 11u);
+  for (const char* edges : {"acos", "rational"})
+    EXPECT_NEAR(errors[std::string("ltc/edges=") + edges] / errors["ltc/edges=polynomial"], 1, 0.01)
+        << edges;
+  // The mean squared error of samples that the truth has not used goes with one over their number.
+  EXPECT_NEAR(errors["ltc/mc_samples=4"] / errors["ltc/mc_samples=64"], 16, 6);
+  EXPECT_GT(errors["ltc/mc_samples=1"], errors["ltc/mc_samples=4"]);
+}
+
 TEST(Accuracy, UnknownNamesListTheKnownOnes) {
   const TempFolder folder;
   const ProcessResult effect = runGlintmark(accuracyArguments(folder, "snow", {}));
@@ -113,9 +152,18 @@ TEST(Accuracy, UnknownNamesListTheKnownOnes) {
   EXPECT_EQ(scene.exit_code, 2);
   EXPECT_NE(scene.err.find("unknown scene 'snow'; scenes are disk/near"), std::string::npos)
       << scene.err;
+  const ProcessResult knob = runGlintmark(accuracyArguments(folder, "gmm", {"--knob", "ka"}));
+  EXPECT_EQ(knob.exit_code, 2);
+  EXPECT_NE(knob.err.find("unknown knob 'ka'; knobs are lobes, alignment, probes"),
+            std::string::npos)
+      << knob.err;
   const ProcessResult rays = runGlintmark(accuracyArguments(folder, "msbrdf", {"--rays", "10"}));
   EXPECT_EQ(rays.exit_code, 2);
   EXPECT_NE(rays.err.find("--rays 10 is not from 100000"), std::string::npos) << rays.err;
+  const ProcessResult size = runGlintmark(accuracyArguments(folder, "gmm", {"--size", "0x5"}));
+  EXPECT_EQ(size.exit_code, 2);
+  // Nothing was begun.
+  EXPECT_FALSE(std::filesystem::exists(folder / "r"));
 }
 
 }  // namespace
