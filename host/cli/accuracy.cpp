@@ -161,15 +161,7 @@ void addAccuracyCommand(CLI::App& app, CommandLine& line) {
   command->add_option("--reps", options->reps, "Repetitions of every time (default: 9)");
   command->add_option("--rays", options->rays,
                       "Most rays of one simulation of msbrdf (default: 16777216)");
-  command
-      ->add_option("-o,--output", options->folder,
-                   "Results folder (default: results/latest/accuracy)")
-      ->type_name("FOLDER");
-  command->add_option("--json", options->json, "Also writes the records to this JSON file")
-      ->type_name("FILE");
-  command->add_option("--csv", options->csv, "Also writes the records to this CSV file")
-      ->type_name("FILE");
-  command->add_flag("--resume", options->resume, "Keeps what an interrupted run has measured");
+  addOutputOptions(*command, *options);
   command->footer(
       "Examples:\n"
       "  glintmark accuracy\n"

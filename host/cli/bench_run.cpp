@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 
@@ -54,6 +55,18 @@ RecordLog openLog(const BenchOptions& options, const RunInfo& info) {
 }
 
 }  // namespace
+
+void addOutputOptions(CLI::App& command, BenchOptions& options) {
+  command
+      .add_option("-o,--output", options.folder,
+                  fmt::format("Results folder (default: {})", options.folder))
+      ->type_name("FOLDER");
+  command.add_option("--json", options.json, "Also writes the records to this JSON file")
+      ->type_name("FILE");
+  command.add_option("--csv", options.csv, "Also writes the records to this CSV file")
+      ->type_name("FILE");
+  command.add_flag("--resume", options.resume, "Keeps what an interrupted run has measured");
+}
 
 BenchRun::BenchRun(const CommandLine& line, const BenchOptions& options)
     : line_(line),

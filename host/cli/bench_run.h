@@ -27,6 +27,9 @@ struct BenchOptions {
   std::map<std::string, std::string> more_key{};  // further entries of BenchRun::key()
 };
 
+/// -o, --json, --csv and --resume; the folder already in `options` is the default.
+void addOutputOptions(CLI::App& command, BenchOptions& options);
+
 /// What a table measures and prints. Cases are measured in order, each once.
 class BenchRun {
  public:
@@ -68,8 +71,8 @@ class BenchRun {
   const std::vector<Record>& records() const { return records_; }
 
   /// Writes results.json, results.csv, table.txt and the copies asked for, and prints `text`.
-  /// Returns kExitCheckFailed if some record is not valid. Throws Error if a file cannot be written;
-  /// the log has all records then.
+  /// Returns kExitCheckFailed if some record is not valid. Throws Error if a file cannot be
+  /// written; the log has all records then.
   int finish(const std::string& text) const;
 
  private:
