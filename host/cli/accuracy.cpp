@@ -96,10 +96,11 @@ std::vector<std::string> chosenCases(const AccuracyEffect& effect,
 std::string headText(const BenchRun& run) {
   return fmt::format(
       "What accuracy costs, at {}, {} lanes, {:.0f} GFLOP/s on {:.60}\n"
-      "*: the default; optimal: no other setting is both faster and closer, where times and errors "
-      "within\n{:.0f} % and errors below the truth's own standard error count as equal; motion: "
-      "error "
-      "of changes from\nframe to frame.\n\n",
+      "*: the default; s.e.: the truth's own standard error; optimal: no other setting is both "
+      "faster\n"
+      "and closer, where times and errors within {:.0f} % and errors below s.e. count as equal; "
+      "motion:\n"
+      "error of changes from frame to frame; fit ratio: time before the first frame.\n\n",
       run.options().size, run.info().width, run.info().peak_gflops, run.info().device,
       100 * kAccuracyStep);
 }
@@ -140,7 +141,7 @@ void addAccuracyCommand(CLI::App& app, CommandLine& line) {
   auto options = std::make_shared<BenchOptions>();
   options->folder = "results/latest/accuracy";
   options->reps = 9;
-  options->rays = std::uint64_t{1} << 24;
+  options->rays = 500'000'000;
   auto selection = std::make_shared<Selection>();
   CLI::App* command =
       app.add_subcommand("accuracy", "Error against time for every knob of every effect");
@@ -160,7 +161,7 @@ void addAccuracyCommand(CLI::App& app, CommandLine& line) {
   command->add_option("--size", options->size, "Image size (default: 1920x1080)")->type_name("WxH");
   command->add_option("--reps", options->reps, "Repetitions of every time (default: 9)");
   command->add_option("--rays", options->rays,
-                      "Most rays of one simulation of msbrdf (default: 16777216)");
+                      "Most rays of one simulation of msbrdf (default: 500000000)");
   addOutputOptions(*command, *options);
   command->footer(
       "Examples:\n"
@@ -168,7 +169,7 @@ void addAccuracyCommand(CLI::App& app, CommandLine& line) {
       "  glintmark accuracy glints --scene dress/grazing --reps 15\n"
       "  glintmark accuracy gmm --knob lobes --knob probes\n"
       "  glintmark accuracy ltc gmm --json accuracy.json\n"
-      "  glintmark accuracy msbrdf --rays 500000000");
+      "  glintmark accuracy msbrdf --rays 10000000");
   command->callback([options, selection, &line] {
     line.action = [options, selection, &line] { return runAccuracy(line, *selection, *options); };
   });

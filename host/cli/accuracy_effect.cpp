@@ -62,6 +62,9 @@ std::vector<Record> accuracyRecords(const BenchRun& run, const std::string& case
   add("truth_stderr", "1", {figures.truth_stderr}, "of the truth, in the metric of the error");
   add("time_ratio", "1", times.ratio, notes.time);
   add("time_ms", "ms", times.ms, notes.time);
+  if (!times.fit_ratio.empty())
+    add("fit_ratio", "1", times.fit_ratio,
+        "what is fitted before the first frame, over the default's, in turn");
   add("bias", "1", {figures.bias}, "of the mean radiance");
   add("rel_mse", "1", {figures.rel_mse}, "");
   add("colour_error", "1", {figures.colour_error}, "of display colours");

@@ -26,9 +26,9 @@ struct AccuracyFigures {
 AccuracyFigures meanFigures(std::span<const AccuracyFigures> figures);
 
 /// Times of one setting: samples of its time over the default's, measured in turn, and its own
-/// [ms].
+/// [ms]. `fit_ratio` is the same of what is precomputed, empty where that is none of the effect's.
 struct AccuracyTimes {
-  std::vector<double> ratio, ms;
+  std::vector<double> ratio, ms, fit_ratio;
 };
 
 /// Notes of a case's records: which metric the error is and where it comes from, how times were

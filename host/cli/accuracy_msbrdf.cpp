@@ -20,7 +20,7 @@ namespace glintmark {
 namespace {
 
 constexpr double kAlphas[] = {0.43, 0.8};
-constexpr int kThetas_deg[] = {0, 45, 75};
+constexpr int kThetas_deg[] = {0, 70};
 constexpr double kClay[] = {0.85, 0.55, 0.4};  // the facets' albedo, rough_plane's
 constexpr int kOrders = 6;
 constexpr std::uint32_t kTruthSeeds[] = {1001, 1002};

@@ -13,8 +13,7 @@ namespace glintmark {
 namespace {
 
 constexpr double kMsPerNs = 1e-6;
-// Longer sampled frames are steady enough to be timed once.
-constexpr int kMostRepeatedSamples = 16;
+// Frames are timed again until they have taken this long; sampled ones at most --reps times.
 constexpr double kLeastTime_ms = 600;
 constexpr int kMostRounds = 101;
 
@@ -128,20 +127,19 @@ AccuracyTimes AccuracySweep::measureTimes(const AccuracySetting& setting) {
 
 AccuracyTimes AccuracySweep::measureSampledTimes(const AccuracySetting& setting) {
   std::vector<AccuracyTimes> times(stages().size());
-  const int reps = setting.samples > kMostRepeatedSamples ? 1 : run_.options().reps;
+  const auto samples = static_cast<std::uint32_t>(setting.samples);
   for (std::size_t i = 0; i < times.size(); ++i) {
-    ShadingOptions options = sampledOptions(stages_[i]);
-    const auto standard = stages_[i].renderer(options);
+    ShadingOptions options = stages_[i].options();
     options.truth = true;
     const auto sampled = stages_[i].unprepared(options);
     sampled->prepare();
     sampled->addTruthSamples(0, 1);  // compiles
-    for (int rep = 0; rep < reps; ++rep) {
-      const double standard_ms = shadeMs(*standard);
-      const FrameTimes frame =
-          sampled->addTruthSamples(0, static_cast<std::uint32_t>(setting.samples));
-      times[i].ms.push_back(frame.shading_event_ns * kMsPerNs);
+    double spent_ms = 0;
+    for (int rep = 0; rep < run_.options().reps && (rep == 0 || spent_ms < kLeastTime_ms); ++rep) {
+      const double standard_ms = shadeMs(*standards_[i]);
+      times[i].ms.push_back(sampled->addTruthSamples(0, samples).shading_event_ns * kMsPerNs);
       times[i].ratio.push_back(times[i].ms.back() / standard_ms);
+      spent_ms += times[i].ms.back();
     }
   }
   return meanTimes(times);
@@ -153,8 +151,10 @@ AccuracySweep::Measured AccuracySweep::measureSetting(const AccuracySetting& set
     stopIfInterrupted();
     figures_of_stages.push_back(figures(i, stages_[i], setting));
   }
-  return {meanFigures(figures_of_stages),
-          setting.samples > 0 ? measureSampledTimes(setting) : measureTimes(setting)};
+  Measured measured = {meanFigures(figures_of_stages),
+                       setting.samples > 0 ? measureSampledTimes(setting) : measureTimes(setting)};
+  measured.times.fit_ratio = fitRatios(stages_.front(), setting);
+  return measured;
 }
 
 std::vector<Record> AccuracySweep::measure(const std::string& case_name) {
@@ -166,11 +166,6 @@ std::vector<Record> AccuracySweep::measure(const std::string& case_name) {
   const Measured measured = is_default ? *default_ : measureSetting(*setting);
   AccuracyNotes notes = notes_;
   if (is_default) notes.time = "the default itself, measured once for all knobs";
-  if (setting->samples > 0) {
-    const ShadingOptions options = sampledOptions(stages().front());
-    notes.time = fmt::format("kernel events, in turn with the default, both at {}x{}",
-                             options.width_px, options.height_px);
-  }
   return accuracyRecords(run_, case_name, setting->role, measured.figures, measured.times, notes);
 }
 

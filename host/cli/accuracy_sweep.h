@@ -69,9 +69,11 @@ class AccuracySweep : public AccuracyEffect {
   /// Errors of a setting in stage `index`; called once per setting and stage.
   virtual AccuracyFigures figures(std::size_t index, const AccuracyStage& stage,
                                   const AccuracySetting& setting) = 0;
-  /// Options of a sampled setting's times.
-  virtual ShadingOptions sampledOptions(const AccuracyStage& stage) const {
-    return stage.options();
+  /// Times of a setting's precomputation over the default's, in turn; empty if it has none.
+  virtual std::vector<double> fitRatios(const AccuracyStage& stage,
+                                        const AccuracySetting& setting) const {
+    (void)stage, (void)setting;
+    return {};
   }
 
  private:

@@ -44,7 +44,7 @@ SampledSweep::SampledSweep(BenchRun& run, const std::string& effect,
                      "kernel events at the command line's size, in turn with the default"}),
       settings_(truth) {}
 
-ShadingOptions SampledSweep::sampledOptions(const AccuracyStage& stage) const {
+ShadingOptions SampledSweep::truthOptions(const AccuracyStage& stage) const {
   const ImageSize size = truthSize(stage.run(), settings_);
   ShadingOptions options = stage.options();
   options.width_px = size.width_px;
@@ -56,7 +56,7 @@ const SampledSweep::Truth& SampledSweep::truth(std::size_t index, const Accuracy
   const auto found = truths_.find(index);
   if (found != truths_.end()) return found->second;
   const TruthImages images = renderTruth(
-      stage.run().device(), stage.scene(), stage.view(), sampledOptions(stage), settings_.spp,
+      stage.run().device(), stage.scene(), stage.view(), truthOptions(stage), settings_.spp,
       [](int) { stopIfInterrupted(); }, stage.run().line().common.threads, stage.textures());
   Image off = images.mean;
   for (std::size_t i = 0; i < off.pixels.size() / 4; ++i)
@@ -72,7 +72,7 @@ const SampledSweep::Truth& SampledSweep::truth(std::size_t index, const Accuracy
 }
 
 Image SampledSweep::image(const AccuracyStage& stage, const AccuracySetting& setting) const {
-  ShadingOptions options = sampledOptions(stage);
+  ShadingOptions options = truthOptions(stage);
   if (setting.samples == 0) {
     if (setting.apply) setting.apply(options);
     return stage.renderer(options)->readRadiance();

@@ -25,7 +25,6 @@ class SampledSweep : public AccuracySweep {
  protected:
   AccuracyFigures figures(std::size_t index, const AccuracyStage& stage,
                           const AccuracySetting& setting) override;
-  ShadingOptions sampledOptions(const AccuracyStage& stage) const override;
 
  private:
   struct Truth {
@@ -34,6 +33,8 @@ class SampledSweep : public AccuracySweep {
     bool sane = false;
   };
   const Truth& truth(std::size_t index, const AccuracyStage& stage);
+  // The defaults at the truth's size.
+  ShadingOptions truthOptions(const AccuracyStage& stage) const;
   // The frame by a setting: shaded, or sampled by samples that the truth has not used.
   Image image(const AccuracyStage& stage, const AccuracySetting& setting) const;
 

@@ -39,8 +39,7 @@ NormalTexture upload(Device& device, const MipTexels& texels) {
 
 NormalTexture uploadMixtures(Device& device, const NormalMap& map, int lobes, bool half,
                              MixtureOrder order, int iterations) {
-  MixtureOptions options{.lobes = lobes, .order = order};
-  if (iterations > 0) options.max_iterations = iterations;
+  const MixtureOptions options = mixtureOptions(lobes, order, iterations);
   const NormalMixtures mixtures =
       cachedNormalMixtures(map, options, DiskCache::fromEnvironment()).mixtures;
   if (!half) return upload(device, mixtures.moments);
@@ -68,6 +67,12 @@ NormalTexture makeTexture(Device& device, const NormalMap& map, NormalMethod met
 
 }  // namespace
 
+MixtureOptions mixtureOptions(int lobes, MixtureOrder order, int iterations) {
+  MixtureOptions options{.lobes = lobes, .order = order};
+  if (iterations > 0) options.max_iterations = iterations;
+  return options;
+}
+
 const NormalTexture& NormalTextures::get(const std::shared_ptr<const NormalMap>& map,
                                          const KernelConfig& config, MixtureOrder order,
                                          int iterations) {
@@ -75,8 +80,12 @@ const NormalTexture& NormalTextures::get(const std::shared_ptr<const NormalMap>&
   NormalMethod method = config.normal_method;
   if (method == NormalMethod::kMip) method = NormalMethod::kToksvig;
   const bool gmm = method == NormalMethod::kGmm;
-  const Key key = {map, method, gmm ? config.lobes : 0, gmm && config.half_texels,
-                   gmm ? order : MixtureOrder::kColours, gmm ? iterations : 0};
+  const Key key = {map,
+                   method,
+                   gmm ? config.lobes : 0,
+                   gmm && config.half_texels,
+                   gmm ? order : MixtureOrder::kColours,
+                   gmm ? iterations : 0};
   const auto found = textures_.find(key);
   if (found != textures_.end()) return found->second;
   return textures_

@@ -19,6 +19,9 @@ struct NormalTexture {
   std::size_t texel_bytes = 0;
 };
 
+/// How the mixtures of method gmm are fitted; `iterations` 0: the fit's default.
+MixtureOptions mixtureOptions(int lobes, MixtureOrder order, int iterations);
+
 /// Makes textures when they are first asked for and keeps them: nothing is fitted or uploaded that
 /// no kernel reads. Several renderers of one device may share one.
 class NormalTextures {

@@ -126,13 +126,42 @@ std::string wrapped(const std::string& text) {
   return result;
 }
 
+struct Column {
+  const char* name;
+  std::string_view metric;
+};
+constexpr std::string_view kOptimal = "pareto";  // told from the points, not from a record
+
+// All that the effect's records hold, but for the metric that is its error under another name.
+std::vector<Column> columnsOf(std::span<const Record> records, const Effect& effect) {
+  constexpr Column kColumns[] = {{"time ratio", "time_ratio"},
+                                 {"ms", "time_ms"},
+                                 {"fit ratio", "fit_ratio"},
+                                 {"error", "error"},
+                                 {"s.e.", "truth_stderr"},
+                                 {"optimal", kOptimal},
+                                 {"bias", "bias"},
+                                 {"relMSE", "rel_mse"},
+                                 {"colour", "colour_error"},
+                                 {"motion", "frame_to_frame_error"}};
+  std::vector<Column> columns;
+  for (const Column& column : kColumns) {
+    bool any = column.metric == kOptimal, another = column.metric == "error" || any;
+    for (const Setting& setting : effect.settings) {
+      const Record* record = CaseRecords(records, setting.case_name).find(column.metric);
+      any = any || record != nullptr;
+      another =
+          another || (record != nullptr && record->value.median != setting.error->value.median);
+    }
+    if (any && another) columns.push_back(column);
+  }
+  return columns;
+}
+
 std::string effectText(std::span<const Record> records, const Effect& effect) {
-  const bool glints = std::ranges::any_of(effect.settings, [&](const Setting& setting) {
-    return CaseRecords(records, setting.case_name).find("frame_to_frame_error") != nullptr;
-  });
-  std::vector<std::string> header = {effect.name, "time ratio", "ms",     "error", "truth s.e.",
-                                     "optimal",   "bias",       "relMSE", "colour"};
-  if (glints) header.push_back("motion");
+  const std::vector<Column> columns = columnsOf(records, effect);
+  std::vector<std::string> header = {effect.name};
+  for (const Column& column : columns) header.push_back(column.name);
   TextTable table(header);
   const std::vector<bool> optimal = paretoOptimal(effect.points);
   for (std::size_t i = 0; i < effect.settings.size(); ++i) {
@@ -141,16 +170,10 @@ std::string effectText(std::span<const Record> records, const Effect& effect) {
     const std::string role = accuracyRole(*setting.error);
     std::vector<std::string> row = {setting.name + (role == kAccuracyDefault ? " *"
                                                     : role == kAccuracyRival ? " (rival)"
-                                                                             : ""),
-                                    one.text("time_ratio"),
-                                    one.text("time_ms"),
-                                    one.text("error"),
-                                    one.text("truth_stderr"),
-                                    optimal[i] ? "yes" : "",
-                                    one.text("bias"),
-                                    one.text("rel_mse"),
-                                    one.text("colour_error")};
-    if (glints) row.push_back(one.text("frame_to_frame_error"));
+                                                                             : "")};
+    for (const Column& column : columns)
+      row.push_back(column.metric == kOptimal ? (optimal[i] ? "yes" : "")
+                                              : one.text(column.metric));
     table.addRow(row);
   }
   return table.toString() + wrapped(effect.settings.front().error->note) + "\n" +
