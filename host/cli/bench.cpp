@@ -102,15 +102,9 @@ void addBenchCommand(CLI::App& app, CommandLine& line) {
       ->type_name("WxH");
   command->add_option("--method", options->method, "zk16 or exact (default: zk16)");
   command->add_option("--reps", options->reps, "Repetitions of every measurement (default: 9)");
-  command->add_option("-o,--output", options->folder, "Results folder (default: results/latest)")
-      ->type_name("FOLDER");
-  command->add_option("--json", options->json, "Also writes the records to this JSON file")
-      ->type_name("FILE");
-  command->add_option("--csv", options->csv, "Also writes the records to this CSV file")
-      ->type_name("FILE");
+  addOutputOptions(*command, *options);
   command->add_option("--trace", options->trace, "Also writes a Chrome/Perfetto trace of the run")
       ->type_name("FILE");
-  command->add_flag("--resume", options->resume, "Keeps what an interrupted run has measured");
   command->footer(
       "Examples:\n"
       "  glintmark bench\n"

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 
@@ -21,6 +22,7 @@ std::map<std::string, std::string> measurementKey(const CommonOptions& common,
                                             {"method", options.method},
                                             {"reps", std::to_string(options.reps)},
                                             {"width", std::to_string(lanes)}};
+  key.insert(options.more_key.begin(), options.more_key.end());
   if (!common.overrides.empty()) key["set"] = fmt::format("{}", fmt::join(common.overrides, " "));
   if (!common.mesh_file.empty()) key["mesh"] = common.mesh_file;
   if (!common.asset_folder.empty()) key["assets"] = common.asset_folder;
@@ -54,6 +56,18 @@ RecordLog openLog(const BenchOptions& options, const RunInfo& info) {
 }
 
 }  // namespace
+
+void addOutputOptions(CLI::App& command, BenchOptions& options) {
+  command
+      .add_option("-o,--output", options.folder,
+                  fmt::format("Results folder (default: {})", options.folder))
+      ->type_name("FOLDER");
+  command.add_option("--json", options.json, "Also writes the records to this JSON file")
+      ->type_name("FILE");
+  command.add_option("--csv", options.csv, "Also writes the records to this CSV file")
+      ->type_name("FILE");
+  command.add_flag("--resume", options.resume, "Keeps what an interrupted run has measured");
+}
 
 BenchRun::BenchRun(const CommandLine& line, const BenchOptions& options)
     : line_(line),
@@ -105,6 +119,15 @@ void BenchRun::measureCases(const std::string& table, const std::vector<std::str
       log_.append(measured);
     }
     records_.insert(records_.end(), measured.begin(), measured.end());
+  }
+}
+
+void BenchRun::addDerived(const std::vector<Record>& derived) {
+  for (const Record& record : derived) {
+    const auto last = std::find_if(records_.rbegin(), records_.rend(), [&](const Record& other) {
+      return other.table == record.table && other.case_ == record.case_;
+    });
+    records_.insert(last.base(), record);
   }
 }
 

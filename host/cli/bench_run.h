@@ -1,5 +1,6 @@
 // One `bench` command: the device, the options, the log, and the cases that it measures.
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -23,7 +24,12 @@ struct BenchOptions {
   std::string json, csv;  // further copies, empty for none
   std::string trace;      // file for the run's intervals, empty for none
   bool resume = false;
+  std::uint64_t rays = 0;  // most rays of a simulation, where a command has simulations
+  std::map<std::string, std::string> more_key{};  // further entries of BenchRun::key()
 };
+
+/// -o, --json, --csv and --resume; the folder already in `options` is the default.
+void addOutputOptions(CLI::App& command, BenchOptions& options);
 
 /// What a table measures and prints. Cases are measured in order, each once.
 class BenchRun {
@@ -52,6 +58,10 @@ class BenchRun {
       const std::vector<std::string>& metrics,
       const std::function<std::vector<Record>(const std::string& case_name)>& measure);
 
+  /// Adds records that follow from measured ones, each behind the last record of its case. They are
+  /// not logged: a resumed run makes them anew.
+  void addDerived(const std::vector<Record>& derived);
+
   /// A record of `table` with the key as its configuration; `samples` not empty.
   Record record(const std::string& table, const std::string& case_name, const std::string& metric,
                 const std::string& unit, const std::vector<double>& samples,
@@ -62,8 +72,8 @@ class BenchRun {
   const std::vector<Record>& records() const { return records_; }
 
   /// Writes results.json, results.csv, table.txt and the copies asked for, and prints `text`.
-  /// Returns kExitCheckFailed if some record is not valid. Throws Error if a file cannot be written;
-  /// the log has all records then.
+  /// Returns kExitCheckFailed if some record is not valid. Throws Error if a file cannot be
+  /// written; the log has all records then.
   int finish(const std::string& text) const;
 
  private:

@@ -37,6 +37,7 @@ struct CommandLine {
 void addInfoCommand(CLI::App& app, CommandLine& line);
 void addRenderCommand(CLI::App& app, CommandLine& line);
 void addHeatmapCommand(CLI::App& app, CommandLine& line);
+void addAccuracyCommand(CLI::App& app, CommandLine& line);
 void addBenchCommand(CLI::App& app, CommandLine& line);
 void addSimulateCommand(CLI::App& app, CommandLine& line);
 void addFitCommand(CLI::App& app, CommandLine& line);

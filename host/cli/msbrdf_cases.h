@@ -1,5 +1,6 @@
 // Cases of table `msbrdf`: what each measures.
 #pragma once
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,12 @@ SimulationSettings diffuseSettings(double alpha, double incidence_deg, int order
                                    std::uint64_t rays);
 /// Number after `key` and '=' in a case's name; Error if there is none.
 double numberIn(const std::string& case_name, const std::string& key);
+
+/// A model's energy per solid angle towards a cosine and azimuth, of facets of Beckmann roughness
+/// `alpha`, at a cosine of incidence and the facets' albedo; the models of multiple scattering with
+/// this project's coefficients, but for `published`.
+std::function<double(double cosine, double azimuth)> diffuseEnergy(DiffuseModel model, double alpha,
+                                                                   double mu_in, double albedo = 1);
 
 /// surface/alpha=A: rate of the ray caster and energy per order.
 std::vector<Record> measureSurface(BenchRun& run, const std::string& name);

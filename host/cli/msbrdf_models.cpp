@@ -55,7 +55,24 @@ std::vector<EnergyModel> energyModels() {
            }}};
 }
 
+std::function<double(double, double)> eonOf(double r, double mu_in, double albedo = 1) {
+  return
+      [=](double cosine, double azimuth) { return eonEnergy(r, mu_in, cosine, azimuth, albedo); };
+}
+
 }  // namespace
+
+std::function<double(double, double)> diffuseEnergy(DiffuseModel model, double alpha, double mu_in,
+                                                    double albedo) {
+  if (model == DiffuseModel::kLambert)
+    return [albedo](double cosine, double) { return albedo * cosine / kPi; };
+  if (model == DiffuseModel::kEon) return eonOf(multiscatterData().eon.at(alpha), mu_in, albedo);
+  const LobePolynomials& set =
+      model == DiffuseModel::kPublished ? kPublishedCode : multiscatterData().refit;
+  return [lobes = LobeModel(set, alpha), mu_in, albedo](double cosine, double) {
+    return lobes.energy(albedo, mu_in, cosine);
+  };
+}
 
 void MsbrdfCase::add(const std::string& metric, const std::string& unit, const Samples& samples,
                      bool valid, const std::string& note) {
@@ -109,7 +126,6 @@ std::vector<Record> measureSurface(BenchRun& run, const std::string& name) {
 
 std::vector<Record> measureModel(BenchRun& run, const std::string& name) {
   const double alpha = numberIn(name, "alpha");
-  const double eon_r = multiscatterData().eon.at(alpha);
   Simulator simulator(run.device(), run.cache(), run.info().width);
   constexpr std::size_t kModels = 5, kWithFurnace = 3;
   constexpr const char* kSuffixes[kModels] = {"", "_published", "_eon", "_eon_unfitted",
@@ -121,17 +137,11 @@ std::vector<Record> measureModel(BenchRun& run, const std::string& name) {
         simulator.run(diffuseSettings(alpha, incidence_deg, 6, kMsbrdfModelRays));
     const LobeData data = makeLobeData(simulation, 0);
     const double mu = data.mu_in;
-    const auto lobes = [alpha, mu](const LobePolynomials& set) {
-      return [model = LobeModel(set, alpha), mu](double cosine, double) {
-        return model.energy(1, mu, cosine);
-      };
-    };
-    const auto eon = [mu](double r) {
-      return [mu, r](double cosine, double azimuth) { return eonEnergy(r, mu, cosine, azimuth); };
-    };
     const std::function<double(double, double)> models[kModels] = {
-        lobes(multiscatterData().refit), lobes(kPublishedCode), eon(eon_r), eon(alpha),
-        [](double cosine, double) { return cosine / kPi; }};
+        diffuseEnergy(DiffuseModel::kRefit, alpha, mu),
+        diffuseEnergy(DiffuseModel::kPublished, alpha, mu),
+        diffuseEnergy(DiffuseModel::kEon, alpha, mu), eonOf(alpha, mu),
+        diffuseEnergy(DiffuseModel::kLambert, alpha, mu)};
     for (std::size_t i = 0; i < kModels; ++i) {
       errors[i].push_back(lobeError(data, models[i]));
       if (i < kWithFurnace) furnaces[i].push_back(furnace(models[i]));

@@ -114,6 +114,7 @@ int runProgram(int argc, const char* const* argv) {
   addRenderCommand(app, line);
   addHeatmapCommand(app, line);
   addBenchCommand(app, line);
+  addAccuracyCommand(app, line);
   addSimulateCommand(app, line);
   addFitCommand(app, line);
   addCompareCommand(app, line);

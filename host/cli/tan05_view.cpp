@@ -63,19 +63,6 @@ Image renderFrame(FrameRenderer& renderer) {
   return renderer.readRadiance();
 }
 
-// How far the change from one frame to the next is from the truth's change: colour error of the
-// changes, mapped to [0, 1] and its scale back.
-double changeError(const Image& before, const Image& after, const Image& truth_before,
-                   const Image& truth_after) {
-  const auto change = [](const Image& a, const Image& b) {
-    Image difference = a;
-    for (std::size_t i = 0; i < difference.pixels.size(); ++i)
-      difference.pixels[i] = 0.5f + 0.5f * (b.pixels[i] - a.pixels[i]);
-    return difference;
-  };
-  return 2 * colourError(change(before, after), change(truth_before, truth_after));
-}
-
 // The display pictures of a zoom-out by one method, whole frames.
 template <typename Render>
 std::vector<Image> zoomFrames(const Tan05Scene& scene, const View& view, Render render) {

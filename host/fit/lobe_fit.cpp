@@ -213,10 +213,10 @@ LobePolynomials fitPolynomials(const std::vector<LobeData>& data, bool masking) 
   return result;
 }
 
-double eonEnergy(double r, double mu_in, double cosine, double azimuth) {
+double eonEnergy(double r, double mu_in, double cosine, double azimuth, double albedo) {
   const double sine_in = std::sqrt(1 - mu_in * mu_in), sine = std::sqrt(1 - cosine * cosine);
   const EonValue value = eonBrdf(
-      {sine_in, 0, mu_in}, {sine * std::cos(azimuth), sine * std::sin(azimuth), cosine}, r, 1);
+      {sine_in, 0, mu_in}, {sine * std::cos(azimuth), sine * std::sin(azimuth), cosine}, r, albedo);
   return (value.single + value.multiple) * cosine;
 }
 

@@ -50,8 +50,8 @@ LobePolynomials fitPolynomials(const std::vector<LobeData>& data, bool masking =
 
 /// Fits EON's roughness to data of all orders together at albedo 1, in the same sense.
 EonRoughness fitEonRoughness(const std::vector<LobeData>& totals);
-/// EON's energy per solid angle at albedo 1, light at azimuth 0.
-double eonEnergy(double r, double mu_in, double cosine, double azimuth);
+/// EON's energy per solid angle, light at azimuth 0.
+double eonEnergy(double r, double mu_in, double cosine, double azimuth, double albedo = 1);
 
 /// Root mean square difference between a model of energy per solid angle (of cosine and azimuth)
 /// and the data, over the mean of the data.

@@ -29,11 +29,13 @@ void uploadMap(Device& device, const Scene& scene, const ShadingOptions& options
     if (map && map != source->map)
       throw Error("one program for all materials needs one normal map; the scene has several");
     map = source->map;
-    textures.get(map, config, options.mixture_order).layout.read(&layouts[i], sizeof(MipTexture));
+    textures.get(map, config, options.mixture_order, options.mixture_iterations)
+        .layout.read(&layouts[i], sizeof(MipTexture));
   }
   arrays.map_layouts = upload(device, layouts, "the layouts of all normal maps");
-  arrays.map_texels = map ? textures.get(map, config, options.mixture_order).texels
-                          : Buffer(device, sizeof(float4), "no normal map");
+  arrays.map_texels =
+      map ? textures.get(map, config, options.mixture_order, options.mixture_iterations).texels
+          : Buffer(device, sizeof(float4), "no normal map");
 }
 
 }  // namespace

@@ -1,9 +1,12 @@
 #include "host/frame/area_lights.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/packing.hpp>
 
-#include "host/fit/ltc_table.h"
+#include "host/core/error.h"
 
 namespace glintmark {
 namespace {
@@ -80,6 +83,21 @@ Buffer upload(Device& device, const std::vector<T>& items, const std::string& wh
   return buffer;
 }
 
+// Throws Error for a value that half precision does not hold.
+std::vector<std::uint16_t> toHalves(const std::vector<float>& values) {
+  constexpr float kGreatestHalf = 65504;
+  std::vector<std::uint16_t> halves;
+  halves.reserve(values.size());
+  for (const float value : values) {
+    if (!(std::abs(value) <= kGreatestHalf))
+      throw Error(fmt::format(
+          "the table of linearly transformed cosines holds {}, too large for half precision",
+          value));
+    halves.push_back(glm::packHalf1x16(value));
+  }
+  return halves;
+}
+
 // Appends a picture to `texels` and returns where its levels stand.
 MipTexture appendTexture(const MipChain& chain, std::vector<float4>& texels) {
   MipTexture layout{};
@@ -120,8 +138,11 @@ MipChain prefilterLightTexture(const Image& texture) {
   return chain;
 }
 
-AreaLightBuffers::AreaLightBuffers(Device& device, const Scene& scene, const glm::dvec3& eye)
-    : device_(device), light_count_(static_cast<uint>(scene.area_lights.size())) {
+AreaLightBuffers::AreaLightBuffers(Device& device, const Scene& scene, const glm::dvec3& eye,
+                                   std::shared_ptr<const LtcTable> own_table)
+    : device_(device),
+      light_count_(static_cast<uint>(scene.area_lights.size())),
+      own_table_(std::move(own_table)) {
   if (scene.area_lights.empty()) return;
   lights_ = upload(device, prepareAreaLights(scene.area_lights, eye), "the area lights");
   std::vector<MipTexture> layouts;
@@ -135,13 +156,18 @@ AreaLightBuffers::AreaLightBuffers(Device& device, const Scene& scene, const glm
   texels_ = upload(device, texels, "the lights' pictures");
 }
 
-const AreaLightBuffers::Table& AreaLightBuffers::table(bool ggx) {
-  const auto found = tables_.find(ggx);
+const AreaLightBuffers::Table& AreaLightBuffers::table(const KernelConfig& config) {
+  const auto key = std::pair(config.ggx, config.ltc_half);
+  const auto found = tables_.find(key);
   if (found != tables_.end()) return found->second;
-  const LtcTable loaded = shippedLtcTable(ggx ? reference::Ndf::kGgx : reference::Ndf::kBeckmann);
-  Table made{upload(device_, loaded.values, "a table of linearly transformed cosines"),
+  const reference::Ndf ndf = config.ggx ? reference::Ndf::kGgx : reference::Ndf::kBeckmann;
+  const bool own = own_table_ && own_table_->ndf == ndf;
+  const LtcTable loaded = own ? *own_table_ : shippedLtcTable(ndf);
+  const std::string what = "a table of linearly transformed cosines";
+  Table made{config.ltc_half ? upload(device_, toHalves(loaded.values), what)
+                             : upload(device_, loaded.values, what),
              static_cast<uint>(loaded.size)};
-  return tables_.emplace(ggx, std::move(made)).first->second;
+  return tables_.emplace(key, std::move(made)).first->second;
 }
 
 std::vector<KernelArg> AreaLightBuffers::arguments(const KernelConfig& config) {
@@ -151,7 +177,7 @@ std::vector<KernelArg> AreaLightBuffers::arguments(const KernelConfig& config) {
     const Buffer nothing(device_, sizeof(float4), "no area lights");
     return {nothing, nothing};
   }
-  std::vector<KernelArg> args = {lights_, table(config.ggx).values};
+  std::vector<KernelArg> args = {lights_, table(config).values};
   if (config.light_texture) {
     args.emplace_back(layouts_);
     args.emplace_back(texels_);
@@ -162,14 +188,14 @@ std::vector<KernelArg> AreaLightBuffers::arguments(const KernelConfig& config) {
 void AreaLightBuffers::describe(const KernelConfig& config, FrameParams& params) {
   if (!config.ltc || light_count_ == 0) return;
   params.area_light_count = light_count_;
-  params.ltc_size = table(config.ggx).size;
+  params.ltc_size = table(config).size;
 }
 
 std::size_t AreaLightBuffers::bytes() const {
   std::size_t total = 0;
   for (const Buffer* buffer : {&lights_, &layouts_, &texels_})
     if (!buffer->empty()) total += buffer->bytes();
-  for (const auto& [ggx, made] : tables_) total += made.values.bytes();
+  for (const auto& [key, made] : tables_) total += made.values.bytes();
   return total;
 }
 

@@ -3,11 +3,14 @@
 #pragma once
 #include <glm/glm.hpp>
 #include <map>
+#include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "host/core/shared_types.h"
 #include "host/filter/mip_chain.h"
+#include "host/fit/ltc_table.h"
 #include "host/ocl/compute.h"
 #include "host/ocl/kernel_config.h"
 #include "host/scene/scene.h"
@@ -28,12 +31,15 @@ inline constexpr double kLightBlur = 0.8;
 /// What the kernels read of a scene's area lights. Makes nothing for a scene that has none.
 class AreaLightBuffers {
  public:
-  AreaLightBuffers(Device& device, const Scene& scene, const glm::dvec3& eye);
+  /// `own_table`, if not null, stands for the shipped table of its NDF.
+  AreaLightBuffers(Device& device, const Scene& scene, const glm::dvec3& eye,
+                   std::shared_ptr<const LtcTable> own_table = nullptr);
 
   /// Arguments of `config`'s kernel: the lights, the NDF's table and, with LIGHT_TEXTURE, the
   /// layouts and texels of the pictures; none where `config` has no area lights, empty ones where
-  /// the scene has none. Loads the shipped
-  /// table of the NDF when it is first asked for; throws Error if it is missing or damaged.
+  /// the scene has none. Loads the shipped table of the NDF when it is first asked for; throws
+  /// Error if it is missing or damaged, or if a value does not fit into half precision where
+  /// LTC_HALF asks for it.
   std::vector<KernelArg> arguments(const KernelConfig& config);
   /// Sets the counts that the kernels read.
   void describe(const KernelConfig& config, FrameParams& params);
@@ -44,12 +50,13 @@ class AreaLightBuffers {
     Buffer values;
     uint size = 0;
   };
-  const Table& table(bool ggx);
+  const Table& table(const KernelConfig& config);
 
   Device& device_;
   uint light_count_ = 0;
   Buffer lights_, layouts_, texels_;
-  std::map<bool, Table> tables_;  // by "is GGX"
+  std::shared_ptr<const LtcTable> own_table_;
+  std::map<std::pair<bool, bool>, Table> tables_;  // by "is GGX" and "is in half precision"
 };
 
 }  // namespace glintmark

@@ -23,6 +23,16 @@ PlaneMask planesFor(const KernelConfig& config) {
 
 namespace {
 
+// How cells are walked and drawn; a kernel without glints keeps the defaults, and so its program.
+void setGlints(const ShadingOptions& options, KernelConfig& config) {
+  if (!config.glint) return;
+  config.method = options.method;
+  config.ka = options.ka;
+  config.grids = options.grids;
+  config.binomial = options.binomial;
+  config.binomial_terms = options.binomial_terms;
+}
+
 // What the kernel makes of a material's normal map; the ground truth reads its finest level.
 void setNormalMap(const Material& material, const ShadingOptions& options, KernelConfig& config) {
   config.normal_map = material.normal_map.has_value();
@@ -51,6 +61,8 @@ void setAreaLights(const Material& material, const Scene& scene, const ShadingOp
   config.light_vertices = static_cast<int>(most_vertices);
   if (options.truth) return;
   config.clipless = options.clipless;
+  config.edges = options.edges;
+  config.ltc_half = options.ltc_half;
   if (!config.normal_map) return;
   config.ltc_method = options.ltc_method;
   // Area lights read mean normals, and so do the methods mip and toksvig.
@@ -76,8 +88,8 @@ KernelConfig configFor(const Material& material, const Scene& scene, const Shadi
       scene.lights, [](const ConeLight& light) { return light.direction.w > 0; });
   config.diffuse = albedo.x > 0 || albedo.y > 0 || albedo.z > 0;
   config.count_cells = config.glint && options.count_cells;
-  config.method = config.glint ? options.method : GlintMethod::kZk16;
-  config.ka = config.glint ? options.ka : 16;
+  setGlints(options, config);
+  config.maths = options.truth ? Maths::kOwn : options.maths;
   // The ground truth of normal maps and area lights keeps to the plain lobes.
   if (config.diffuse && config.cone_lights && !options.truth)
     config.multiscatter = static_cast<Multiscatter>(material.diffuse_model);
@@ -127,8 +139,7 @@ KernelConfig configForAll(const Scene& scene, const ShadingOptions& options, int
   if (map_user) all.lobes = map_user->lobes;
   all.all_materials = all.glint = all.groove = all.glint_colour = all.size_variation = true;
   all.cone_lights = all.diffuse = all.ltc = all.metal_compensation = true;
-  all.method = options.method;
-  all.ka = options.ka;
+  setGlints(options, all);
   all.ltc_method = options.ltc_method;
   all.multiscatter = scatterer ? scatterer->multiscatter : Multiscatter::kRefit;
   all.lobe_masking =

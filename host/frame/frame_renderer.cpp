@@ -131,7 +131,7 @@ void FrameRenderer::Impl::makeLights() {
   light_count = static_cast<uint>(prepared.lights.size());
   lights = uploadItems(device, std::move(prepared.lights), "the lights");
   taps = uploadItems(device, std::move(prepared.taps), "the lights' taps");
-  if (!area_lights) area_lights.emplace(device, scene, camera.eye);
+  if (!area_lights) area_lights.emplace(device, scene, camera.eye, options.ltc_table);
 }
 
 void FrameRenderer::Impl::makeBuffers(Band& band, FrameTimes& times) {
@@ -160,8 +160,8 @@ void FrameRenderer::Impl::rasterize(Band& band) {
 void FrameRenderer::Impl::setMaterial(Launch& launch, const Material& material) {
   launch.material = uploadItems(device, std::vector{material.glint}, "a material");
   if (launch.config.normal_map) {
-    const NormalTexture& texture =
-        textures->get(material.normal_map->map, launch.config, options.mixture_order);
+    const NormalTexture& texture = textures->get(material.normal_map->map, launch.config,
+                                                 options.mixture_order, options.mixture_iterations);
     launch.map_layout = texture.layout;
     launch.map_texels = texture.texels;
   }

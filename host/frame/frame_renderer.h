@@ -15,6 +15,8 @@
 
 namespace glintmark {
 
+struct LtcTable;
+
 /// How a frame's materials become programs. The first is how scenes are shaded; the others are what
 /// it is compared with.
 enum class Programs {
@@ -30,6 +32,10 @@ struct ShadingOptions {
   int lanes = 0;  // 0: from the device
   GlintMethod method = GlintMethod::kZk16;
   int ka = 16;
+  int grids = 2;  // of cells, blended per pixel: 1 or 2
+  BinomialForm binomial = BinomialForm::kOfMethod;
+  int binomial_terms = 16;  // of BinomialForm::kCapped, 2 to 64
+  Maths maths = Maths::kOwn;
   bool glints = true;  // false: every glint material is shaded as its smooth lobe (the baseline)
   bool count_cells = false;
   NormalMethod normal_method = NormalMethod::kGmm;  // of materials with a normal map
@@ -37,9 +43,13 @@ struct ShadingOptions {
   int anisotropy = 16;       // most texture probes along a footprint, 1 to 16
   bool half_texels = false;  // mixtures in half precision
   MixtureOrder mixture_order = MixtureOrder::kColours;
+  int mixture_iterations = 0;                // EM steps of a texel in the fit; 0: the fit's default
   LtcMethod ltc_method = LtcMethod::kExact;  // of materials with a normal map under area lights
   bool clipless = false;                     // area lights are not clipped to the horizon
   Programs programs = Programs::kPerMaterial;
+  EdgeIntegral edges = EdgeIntegral::kFit;      // over the edges of area lights
+  bool ltc_half = false;                        // table of cosines in half precision
+  std::shared_ptr<const LtcTable> ltc_table{};  // in place of the shipped table of its NDF
   bool truth = false;  // supersample instead of shading: addTruthSamples() in place of shade()
 };
 

@@ -38,17 +38,17 @@ NormalTexture upload(Device& device, const MipTexels& texels) {
 }
 
 NormalTexture uploadMixtures(Device& device, const NormalMap& map, int lobes, bool half,
-                             MixtureOrder order) {
+                             MixtureOrder order, int iterations) {
+  const MixtureOptions options = mixtureOptions(lobes, order, iterations);
   const NormalMixtures mixtures =
-      cachedNormalMixtures(map, {.lobes = lobes, .order = order}, DiskCache::fromEnvironment())
-          .mixtures;
+      cachedNormalMixtures(map, options, DiskCache::fromEnvironment()).mixtures;
   if (!half) return upload(device, mixtures.moments);
   return upload(device, mixtures.moments.layout, packHalfMixtures(mixtures),
                 static_cast<std::size_t>(lobes) * 4 * sizeof(std::uint16_t));
 }
 
 NormalTexture makeTexture(Device& device, const NormalMap& map, NormalMethod method, int lobes,
-                          bool half, MixtureOrder order) {
+                          bool half, MixtureOrder order, int iterations) {
   switch (method) {
     case NormalMethod::kFixed:
       return upload(device, finestNormals(map));
@@ -60,25 +60,37 @@ NormalTexture makeTexture(Device& device, const NormalMap& map, NormalMethod met
     case NormalMethod::kFournier:
       return upload(device, fournierPeaks(map));
     case NormalMethod::kGmm:
-      return uploadMixtures(device, map, lobes, half, order);
+      return uploadMixtures(device, map, lobes, half, order, iterations);
   }
   throw Error("the normal method is unknown; it must be 0 (mip) to 5 (gmm)");
 }
 
 }  // namespace
 
+MixtureOptions mixtureOptions(int lobes, MixtureOrder order, int iterations) {
+  MixtureOptions options{.lobes = lobes, .order = order};
+  if (iterations > 0) options.max_iterations = iterations;
+  return options;
+}
+
 const NormalTexture& NormalTextures::get(const std::shared_ptr<const NormalMap>& map,
-                                         const KernelConfig& config, MixtureOrder order) {
+                                         const KernelConfig& config, MixtureOrder order,
+                                         int iterations) {
   // Methods that read the same texture share it.
   NormalMethod method = config.normal_method;
   if (method == NormalMethod::kMip) method = NormalMethod::kToksvig;
   const bool gmm = method == NormalMethod::kGmm;
-  const Key key = {map, method, gmm ? config.lobes : 0, gmm && config.half_texels,
-                   gmm ? order : MixtureOrder::kColours};
+  const Key key = {map,
+                   method,
+                   gmm ? config.lobes : 0,
+                   gmm && config.half_texels,
+                   gmm ? order : MixtureOrder::kColours,
+                   gmm ? iterations : 0};
   const auto found = textures_.find(key);
   if (found != textures_.end()) return found->second;
   return textures_
-      .emplace(key, makeTexture(device_, *map, method, config.lobes, config.half_texels, order))
+      .emplace(key, makeTexture(device_, *map, method, config.lobes, config.half_texels, order,
+                                iterations))
       .first->second;
 }
 

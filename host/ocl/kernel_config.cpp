@@ -11,6 +11,7 @@ namespace glintmark {
 namespace {
 
 constexpr int kMaxKa = 64;
+constexpr int kMinBinomialTerms = 2, kMaxBinomialTerms = 64;
 constexpr int kMaxLobes = 8;
 constexpr int kMaxAnisotropy = 16;
 
@@ -29,6 +30,10 @@ void validate(const KernelConfig& config) {
   if (w != 1 && w != 4 && w != 8 && w != 16)
     throw Error(fmt::format("kernel width {} is not one of 1, 4, 8 and 16", w));
   requireRange("ka", config.ka, kMaxKa);
+  requireRange("grid count", config.grids, 2);
+  if (config.binomial_terms < kMinBinomialTerms || config.binomial_terms > kMaxBinomialTerms)
+    throw Error(fmt::format("binomial term count {} is out of range; it must be {} to {}",
+                            config.binomial_terms, kMinBinomialTerms, kMaxBinomialTerms));
   requireRange("lobe count", config.lobes, kMaxLobes);
   requireRange("anisotropy", config.anisotropy, kMaxAnisotropy);
   if (config.light_vertices < 3 || config.light_vertices > static_cast<int>(GM_MAX_LIGHT_VERTICES))
@@ -61,6 +66,10 @@ std::string buildOptions(const KernelConfig& config) {
       config.half_texels, config.ltc, static_cast<int>(config.ltc_method), config.light_vertices,
       config.clipless, config.light_texture, static_cast<int>(config.multiscatter),
       config.lobe_masking, config.metal_compensation);
+  options += fmt::format(
+      " -D GRIDS={} -D BINOMIAL={} -D BINOMIAL_TERMS={} -D MATHS={} -D EDGES={} -D LTC_HALF={:d}",
+      config.grids, static_cast<int>(config.binomial), config.binomial_terms,
+      static_cast<int>(config.maths), static_cast<int>(config.edges), config.ltc_half);
   for (std::size_t i = 0; i < kPlaneCount; ++i) {
     const Plane plane = static_cast<Plane>(i);
     if (config.planes.has(plane))

@@ -12,6 +12,15 @@ enum class GlintMethod : int {
   kExact = 1,  // uncapped, true parallelogram coverage, exact binomial quantile
 };
 
+/// How many microdetails of a cell reflect. kernels/config.clh explains.
+enum class BinomialForm : int { kOfMethod, kExpected, kGaussian, kCapped, kExact };
+
+/// Whose reciprocals, roots, powers and logarithms the kernels use.
+enum class Maths : int { kOwn, kNative, kPrecise };
+
+/// The integral over the edges of area lights.
+enum class EdgeIntegral : int { kFit, kAcos, kRational };
+
 /// How the normals under a pixel become one shading normal or lobe. kernels/config.clh explains.
 enum class NormalMethod : int { kMip, kFixed, kToksvig, kLean, kFournier, kGmm };
 
@@ -35,6 +44,10 @@ struct KernelConfig {
   bool diffuse = false;
   bool count_cells = false;
   GlintMethod method = GlintMethod::kZk16;
+  int grids = 2;  // blended per pixel, 1 or 2
+  BinomialForm binomial = BinomialForm::kOfMethod;
+  int binomial_terms = 16;  // of BinomialForm::kCapped, 2..64
+  Maths maths = Maths::kOwn;
   int ka = 16;       // K_a, steps along the footprint per grid, 1..64
   bool ggx = false;  // NDF of the smooth lobe: GGX, not Beckmann
   bool normal_map = false;
@@ -44,8 +57,10 @@ struct KernelConfig {
   bool half_texels = false;  // half-precision layout of a mixture
   bool ltc = false;          // the scene has area lights
   LtcMethod ltc_method = LtcMethod::kOriginal;
-  int light_vertices = 4;      // of the area light that has most, 3..8
-  bool clipless = false;       // area lights are not clipped to the horizon
+  int light_vertices = 4;  // of the area light that has most, 3..8
+  bool clipless = false;   // area lights are not clipped to the horizon
+  EdgeIntegral edges = EdgeIntegral::kFit;
+  bool ltc_half = false;       // table of cosines in half precision
   bool light_texture = false;  // some area light is textured
   Multiscatter multiscatter = Multiscatter::kOff;
   bool lobe_masking = false;        // masking and shadowing of multiple scattering

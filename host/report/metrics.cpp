@@ -77,4 +77,16 @@ double colourError(const Image& image, const Image& reference) {
   return sum / (pixelCount(image) * std::sqrt(static_cast<double>(colours)));
 }
 
+double changeError(const Image& before, const Image& after, const Image& reference_before,
+                   const Image& reference_after) {
+  // Changes are mapped to [0, 1] and their scale is given back.
+  const auto change = [](const Image& a, const Image& b) {
+    Image difference = a;
+    for (std::size_t i = 0; i < difference.pixels.size(); ++i)
+      difference.pixels[i] = 0.5f + 0.5f * (b.pixels[i] - a.pixels[i]);
+    return difference;
+  };
+  return 2 * colourError(change(before, after), change(reference_before, reference_after));
+}
+
 }  // namespace glintmark

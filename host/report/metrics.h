@@ -21,4 +21,9 @@ inline constexpr double kRelMseEpsilon = 1e-2;  // keeps black pixels from domin
 /// white. The images hold display values already.
 double colourError(const Image& image, const Image& reference);
 
+/// Frame-to-frame error: how far the change from one frame to the next is from the reference's
+/// change, as a colour error of the changes. All images hold display values.
+double changeError(const Image& before, const Image& after, const Image& reference_before,
+                   const Image& reference_after);
+
 }  // namespace glintmark

@@ -15,7 +15,9 @@ TEST(KernelConfig, DefaultsWriteEverySwitch) {
             "-D NORMAL_MAP=0 -D NORMAL_METHOD=0 -D LOBES=1 -D ANISOTROPY=1 -D HALF_TEXELS=0 "
             "-D LTC=0 -D LTC_METHOD=0 -D LIGHT_VERTICES=4 -D CLIPLESS=0 -D LIGHT_TEXTURE=0 -D "
             "MULTISCATTER=0 "
-            "-D LOBE_MASKING=0 -D METAL_COMPENSATION=0");
+            "-D LOBE_MASKING=0 -D METAL_COMPENSATION=0 -D GRIDS=2 -D BINOMIAL=0 -D "
+            "BINOMIAL_TERMS=16 -D MATHS=0 -D "
+            "EDGES=0 -D LTC_HALF=0");
 }
 
 TEST(KernelConfig, EverySwitchShows) {
@@ -36,6 +38,12 @@ TEST(KernelConfig, EverySwitchShows) {
   config.ltc_method = LtcMethod::kExact;
   config.light_vertices = 8;
   config.multiscatter = Multiscatter::kEon;
+  config.grids = 1;
+  config.binomial = BinomialForm::kCapped;
+  config.binomial_terms = 64;
+  config.maths = Maths::kNative;
+  config.edges = EdgeIntegral::kRational;
+  config.ltc_half = true;
   EXPECT_EQ(buildOptions(config),
             "-D WIDTH=16 -D ALL_MATERIALS=1 -D GLINT=0 -D GROOVE=1 -D GLINT_COLOUR=1 -D SIZE_VARIATION=0 "
             "-D CONE_LIGHTS=1 -D LIGHT_CONE=1 -D DIFFUSE=1 -D COUNT_CELLS=1 -D GLINT_METHOD=1 -D "
@@ -43,14 +51,16 @@ TEST(KernelConfig, EverySwitchShows) {
             "-D NORMAL_MAP=1 -D NORMAL_METHOD=5 -D LOBES=8 -D ANISOTROPY=16 -D HALF_TEXELS=1 "
             "-D LTC=1 -D LTC_METHOD=2 -D LIGHT_VERTICES=8 -D CLIPLESS=1 -D LIGHT_TEXTURE=1 -D "
             "MULTISCATTER=3 "
-            "-D LOBE_MASKING=1 -D METAL_COMPENSATION=1");
+            "-D LOBE_MASKING=1 -D METAL_COMPENSATION=1 -D GRIDS=1 -D BINOMIAL=3 -D "
+            "BINOMIAL_TERMS=64 -D MATHS=1 -D "
+            "EDGES=2 -D LTC_HALF=1");
 }
 
 TEST(KernelConfig, PlanesBecomeTheirSlots) {
   KernelConfig config;
   config.planes = {Plane::kDepth, Plane::kPixel, Plane::kDvdx};
   EXPECT_TRUE(buildOptions(config).ends_with(
-      " -D METAL_COMPENSATION=0 -D PLANE_PIXEL=0 -D PLANE_DVDX=1 -D PLANE_DEPTH=2"));
+      " -D LTC_HALF=0 -D PLANE_PIXEL=0 -D PLANE_DVDX=1 -D PLANE_DEPTH=2"));
   config.planes = PlaneMask::all();
   EXPECT_TRUE(buildOptions(config).ends_with(
       " -D PLANE_PIXEL=0 -D PLANE_U_INT=1 -D PLANE_V_INT=2 -D PLANE_U_FRAC=3 -D PLANE_V_FRAC=4"

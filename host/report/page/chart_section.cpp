@@ -7,6 +7,7 @@
 #include <charconv>
 #include <set>
 
+#include "host/report/accuracy_table.h"
 #include "host/report/case_records.h"
 #include "host/report/page/html_text.h"
 #include "host/report/page/table_names.h"
@@ -47,6 +48,44 @@ std::string curveHtml(const std::string& table, const std::string& prefix,
       "aria-label=\"{}\"></canvas></div>\n",
       escapeHtml(table), escapeHtml(prefix), escapeHtml(fmt::format("{}", fmt::join(metrics, " "))),
       escapeHtml(unit == "1" ? "" : unit), escapeHtml(title));
+}
+
+std::string accuracyEffectHtml(std::span<const Record> records, const std::string& effect) {
+  std::vector<std::vector<std::string>> rows;
+  std::vector<std::string> optimal;
+  for (const std::string& case_name : caseNames(records)) {
+    if (case_name.substr(0, case_name.find('/')) != effect) continue;
+    const CaseRecords one(records, case_name);
+    const std::string setting =
+        escapeHtml(case_name.substr(std::min(case_name.find('/') + 1, case_name.size())));
+    const Record *error = one.find("error"), *pareto = one.find("pareto");
+    const bool is_default = error != nullptr && accuracyRole(*error) == kAccuracyDefault;
+    const bool is_optimal = pareto != nullptr && pareto->value.median == 1;
+    // The default stands under every knob that has it, but is one setting.
+    const std::string name = is_default ? "the default" : setting;
+    if (is_optimal && std::ranges::find(optimal, name) == optimal.end()) optimal.push_back(name);
+    rows.push_back({rowNameHtml(setting + (is_default ? " (default)" : ""))});
+    for (const char* metric : {"error", "truth_stderr", "time_ratio"}) {
+      const Record* record = one.find(metric);
+      rows.back().push_back(cellHtml(record == nullptr ? "–" : numberHtml(*record)));
+    }
+    rows.back().push_back(cellHtml(is_optimal ? "<span class=\"good\">● optimal</span>" : ""));
+  }
+  const std::string name = escapeHtml(effect);
+  std::string html = fmt::format(
+      "<h3>{}</h3>\n<div class=\"chart\"><canvas data-chart=\"accuracy\" data-effect=\"{}\" "
+      "role=\"img\" aria-label=\"Error of {} over time; the table below has the "
+      "numbers\"></canvas></div>\n",
+      name, name, name);
+  if (const std::string sentence = accuracySentence(records, effect); !sentence.empty())
+    html += fmt::format("<p>{}</p>\n", escapeHtml(sentence));
+  if (!optimal.empty())
+    html += fmt::format("<p>Pareto-optimal: {}.</p>\n", fmt::join(optimal, ", "));
+  return html +
+         fmt::format(
+             "<details><summary>{} settings of {}</summary>\n{}</details>\n", rows.size(), name,
+             tableHtml("", {"setting", "error", "s.e. of the truth", "time / default", "Pareto"},
+                       rows));
 }
 
 }  // namespace
@@ -122,35 +161,7 @@ std::string accuracyHtml(std::span<const Record> records) {
     if (std::ranges::find(effects, effect) == effects.end()) effects.push_back(effect);
   }
   std::string html;
-  for (const std::string& effect : effects) {
-    std::vector<std::vector<std::string>> rows;
-    std::vector<std::string> optimal;
-    for (const std::string& name : caseNames(records)) {
-      if (name.substr(0, name.find('/')) != effect) continue;
-      const CaseRecords one(records, name);
-      const std::string setting = name.substr(std::min(name.find('/') + 1, name.size()));
-      const Record* pareto = one.find("pareto");
-      const bool is_optimal = pareto != nullptr && pareto->value.median == 1;
-      if (is_optimal) optimal.push_back(escapeHtml(setting));
-      rows.push_back({rowNameHtml(escapeHtml(setting))});
-      for (const char* metric : {"error", "truth_stderr", "time_ratio"}) {
-        const Record* record = one.find(metric);
-        rows.back().push_back(cellHtml(record == nullptr ? "–" : numberHtml(*record)));
-      }
-      rows.back().push_back(cellHtml(is_optimal ? "<span class=\"good\">● optimal</span>" : ""));
-    }
-    const std::string name = escapeHtml(effect);
-    html += fmt::format(
-        "<h3>{}</h3>\n<div class=\"chart\"><canvas data-chart=\"accuracy\" data-effect=\"{}\" "
-        "role=\"img\" aria-label=\"Error of {} over time; the table below has the "
-        "numbers\"></canvas></div>\n",
-        name, name, name);
-    if (!optimal.empty())
-      html += fmt::format("<p>Pareto-optimal: {}.</p>\n", fmt::join(optimal, ", "));
-    html += fmt::format(
-        "<details><summary>{} settings of {}</summary>\n{}</details>\n", rows.size(), name,
-        tableHtml("", {"setting", "error", "s.e. of the truth", "time / default", "Pareto"}, rows));
-  }
+  for (const std::string& effect : effects) html += accuracyEffectHtml(records, effect);
   return html;
 }
 

@@ -15,7 +15,8 @@ std::string timeBarsHtml(std::span<const Record> records);
 /// script draws them.
 std::string curvesHtml(const std::string& table, std::span<const Record> records);
 
-/// Table `accuracy`: per effect a chart of error over time and the settings behind it.
+/// Table `accuracy`: per effect a chart of error over time, what the default buys, and the settings
+/// behind it.
 std::string accuracyHtml(std::span<const Record> records);
 
 /// Table `effects`: the matrix of pairs, and what each set needs.

@@ -30,16 +30,19 @@
     if (![1, 2, 5].some((d) => Math.abs(digit - d) < 1e-6)) return "";
     return value >= 1e-3 && value < 1e5 ? String(+value.toPrecision(3)) : value.toExponential(0);
   };
-  const logAxis = (text, values) => ({
-    type: "logarithmic",
-    min: Math.min(...values) * 0.7,
-    max: Math.max(...values) * 1.5,
-    title: { display: true, text },
-    ticks: { callback: logTick, maxRotation: 0, autoSkipPadding: 12 },
-  });
+  const logAxis = (text, values) => {
+    const min = Math.min(...values) * 0.7, max = Math.max(...values) * 1.5;
+    const decades = Math.log10(max / min);
+    const tick = (value) => (decades < 3 || Number.isInteger(+Math.log10(value).toFixed(6)) ? logTick(value) : "");
+    return {
+      type: "logarithmic", min, max,
+      title: { display: true, text },
+      ticks: { callback: tick, maxRotation: 0, autoSkip: false },
+    };
+  };
   const short = (value) => String(+value.toPrecision(3));
 
-  // Names beside the Pareto points, each moved up until it meets no other.
+  // Names beside the Pareto points, each moved until it meets no other and tied to its point if that is far.
   const pointNames = {
     id: "pointNames",
     afterDatasetsDraw(chart) {
@@ -50,8 +53,19 @@
       ctx.save();
       ctx.font = `600 12px ${Chart.defaults.font.family}`;
       ctx.textBaseline = "middle";
-      chart.getDatasetMeta(at).data.forEach((point, i) => {
-        const name = chart.data.datasets[at].data[i].name;
+      // Points that cannot be told apart share a name, the default's if it is among them.
+      const points = chart.getDatasetMeta(at).data.map((point, i) => ({
+        x: point.x, y: point.y, name: chart.data.datasets[at].data[i].name, alike: 0,
+      }));
+      const named = [];
+      points.sort((a, b) => (b.name === "default") - (a.name === "default"));
+      points.forEach((point) => {
+        const same = named.find((other) => Math.hypot(other.x - point.x, other.y - point.y) < 10);
+        if (same) ++same.alike;
+        else named.push(point);
+      });
+      named.forEach((point) => {
+        const name = point.name + (point.alike > 0 ? ` and ${point.alike} alike` : "");
         const width = ctx.measureText(name).width;
         let x = point.x + 9;
         if (x + width > area.right) x = Math.max(area.left, point.x - 9 - width);
@@ -60,6 +74,14 @@
         for (let step = 1; meets(y) && step < 30; ++step) y = point.y - 9 + (step % 2 ? -7 : 7) * (step + 1);
         y = Math.min(Math.max(y, area.top + 8), area.bottom - 8);
         boxes.push({ left: x, right: x + width, y });
+        if (Math.abs(y - point.y) > 16) {
+          ctx.beginPath();
+          ctx.moveTo(point.x, point.y + 9 * Math.sign(y - point.y));
+          ctx.lineTo(x + (x > point.x ? 6 : width - 6), y - 7 * Math.sign(y - point.y));
+          ctx.strokeStyle = colour("--soft");
+          ctx.lineWidth = 1;
+          ctx.stroke();
+        }
         ctx.strokeStyle = colour("--panel");
         ctx.lineWidth = 4;
         ctx.lineJoin = "round";
@@ -80,12 +102,17 @@
       if (!points.has(name)) points.set(name, { name, knob: name.split("=")[0] });
       const point = points.get(name);
       point[r.metric] = r.median;
-      if (r.config && r.config.role === "rival") point.rival = true;
+      if (r.config && r.config.role) point.role = r.config.role;
     }
     const all = [...points.values()]
       .filter((p) => p.time_ratio > 0 && p.error > 0)
       .map((p) => ({ ...p, x: p.time_ratio, y: p.error }));
-    const front = all.filter((p) => p.pareto === 1).sort((a, b) => a.x - b.x);
+    // The default stands under every knob that has it, but is one point of the front.
+    const standard = all.find((p) => p.role === "default");
+    const front = all
+      .filter((p) => p.pareto === 1 && (p.role !== "default" || p === standard))
+      .map((p) => (p === standard ? { ...p, name: "default" } : p))
+      .sort((a, b) => a.x - b.x);
     const knobs = [...new Set(all.map((p) => p.knob))];
     const datasets = [{
       label: "Pareto front", data: front, pareto: true, showLine: true, borderColor: colour("--ink"),
@@ -94,9 +121,10 @@
     }];
     knobs.forEach((knob, i) => {
       const data = all.filter((p) => p.knob === knob);
-      const rival = data.some((p) => p.rival);
+      const rival = data.some((p) => p.role === "rival");
+      const inOrder = data.length > 2 && data.every((p) => Number.isFinite(Number(p.name.slice(knob.length + 1))));
       datasets.push({
-        label: rival ? `${knob} (rival)` : knob, data, showLine: data.length > 2, borderWidth: 1.5,
+        label: rival ? `${knob} (rival)` : knob, data, showLine: inOrder, borderWidth: 1.5,
         borderColor: palette[i % palette.length], backgroundColor: palette[i % palette.length],
         pointRadius: 5, pointHoverRadius: 7, pointStyle: rival ? "rectRot" : "circle", order: 2,
       });

@@ -1,0 +1,170 @@
+// glintmark accuracy on tiny pictures.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "host/report/atomic_file.h"
+#include "host/report/records.h"
+#include "tests/cli/process.h"
+
+namespace glintmark {
+namespace {
+
+std::vector<std::string> accuracyArguments(const TempFolder& folder, const std::string& effect,
+                                           const std::vector<std::string>& more) {
+  std::vector<std::string> arguments = {"accuracy", effect, "--quiet", "--size",    "48x27",
+                                        "--reps",   "1",    "-o",      folder / "r"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+// Medians of one metric by case.
+std::map<std::string, double> figuresOf(const TempFolder& folder, const std::string& metric) {
+  std::map<std::string, double> figures;
+  for (const Record& record : readResults(folder / "r/results.json").records) {
+    EXPECT_TRUE(record.valid) << record.case_ << " " << record.metric << ": " << record.note;
+    if (record.metric == metric) figures[record.case_] = record.value.median;
+  }
+  return figures;
+}
+
+TEST(Accuracy, ModelsAndSimulations) {
+  const TempFolder folder;
+  const auto arguments = accuracyArguments(
+      folder, "msbrdf",
+      {"--rays", "100000", "--json", folder / "copy.json", "--csv", folder / "copy.csv"});
+  const ProcessResult result = runGlintmark(arguments);
+  ASSERT_EQ(result.exit_code, 0) << result.err << result.out;
+  EXPECT_EQ(result.err, "");
+
+  std::map<std::string, std::set<std::string>> metrics;
+  std::map<std::string, double> errors;
+  double optimal = 0;
+  for (const Record& record : readResults(folder / "r/results.json").records) {
+    EXPECT_EQ(record.table, "accuracy");
+    EXPECT_TRUE(record.valid) << record.case_ << " " << record.metric << ": " << record.note;
+    metrics[record.case_].insert(record.metric);
+    if (record.metric == "error") errors[record.case_] = record.value.median;
+    if (record.metric == "pareto") optimal += record.value.median;
+    EXPECT_EQ(record.config.at("rays"), "100000");
+  }
+  for (const char* name : {"msbrdf/model=lambert", "msbrdf/model=published", "msbrdf/model=refit",
+                           "msbrdf/model=eon", "msbrdf/rays=1e5"}) {
+    for (const char* metric : {"error", "truth_stderr", "time_ratio", "time_ms", "pareto", "bias",
+                               "rel_mse", "colour_error"})
+      EXPECT_TRUE(metrics[name].contains(metric)) << name << " " << metric;
+  }
+  EXPECT_EQ(metrics.size(), 5u);
+  EXPECT_GE(optimal, 1);
+  // Lambert knows nothing of roughness: even so few rays tell that it is worse.
+  EXPECT_GT(errors["msbrdf/model=lambert"], errors["msbrdf/model=eon"]);
+  EXPECT_EQ(readTextFile(folder / "copy.json"), readTextFile(folder / "r/results.json"));
+
+  const std::string table = readTextFile(folder / "r/table.txt");
+  EXPECT_NE(table.find("The default of msbrdf has an error of"), std::string::npos) << table;
+  EXPECT_NE(table.find("Not measured, being beyond --rays 100000: rays=1e6"), std::string::npos)
+      << table;
+  std::istringstream lines(table);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
+
+  // All is there already: nothing is measured again, and nothing doubled.
+  const std::string log = readTextFile(folder / "r/records.jsonl");
+  const std::string results = readTextFile(folder / "r/results.csv");
+  auto resume = arguments;
+  resume.push_back("--resume");
+  EXPECT_EQ(runGlintmark(resume).exit_code, 0);
+  EXPECT_EQ(readTextFile(folder / "r/records.jsonl"), log);
+  EXPECT_EQ(readTextFile(folder / "r/results.csv"), results);
+}
+
+TEST(Accuracy, FramesAgainstASupersampledTruth) {
+  const TempFolder folder;
+  // A small map and few lanes: fitted and compiled fast.
+  const ProcessResult result = runGlintmark(accuracyArguments(
+      folder, "gmm",
+      {"--scene", "disk/oblique", "--width", "4", "--set", "material.silver.normal_map.size_px=64",
+       "--knob", "lobes", "--knob", "texels", "--knob", "method", "--knob", "supersamples"}));
+  ASSERT_EQ(result.exit_code, 0) << result.err << result.out;
+  auto errors = figuresOf(folder, "error"), ratios = figuresOf(folder, "time_ratio"),
+       truth = figuresOf(folder, "truth_stderr");
+  EXPECT_EQ(errors.size(), 16u);
+  // The default is one measurement under every knob.
+  for (const char* name : {"gmm/lobes=4", "gmm/texels=float"}) {
+    EXPECT_EQ(ratios[name], 1) << name;
+    EXPECT_EQ(errors[name], errors["gmm/lobes=4"]) << name;
+  }
+  EXPECT_LT(errors["gmm/lobes=4"], errors["gmm/method=mip"]);
+  EXPECT_LT(errors["gmm/lobes=4"], errors["gmm/method=fixed"]);
+  // Samples that the truth has not used come closer and closer to it.
+  EXPECT_LT(errors["gmm/supersamples=16"], errors["gmm/supersamples=1"]);
+  EXPECT_LT(errors["gmm/supersamples=64"], errors["gmm/supersamples=16"]);
+  EXPECT_GT(truth["gmm/lobes=4"], 0);
+  EXPECT_GT(ratios["gmm/supersamples=64"], ratios["gmm/supersamples=4"]);
+  std::istringstream lines(readTextFile(folder / "r/table.txt"));
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
+}
+
+TEST(Accuracy, GlintsAgainstFramesOfMethodExact) {
+  const TempFolder folder;
+  const ProcessResult result = runGlintmark(accuracyArguments(
+      folder, "glints",
+      {"--scene", "screen_plane/grazing", "--width", "4", "--knob", "ka", "--knob", "grids"}));
+  ASSERT_EQ(result.exit_code, 0) << result.err << result.out;
+  auto errors = figuresOf(folder, "error");
+  EXPECT_EQ(errors.size(), 9u);
+  EXPECT_EQ(figuresOf(folder, "frame_to_frame_error").size(), 9u);
+  EXPECT_EQ(figuresOf(folder, "distribution_distance"), errors);
+  EXPECT_EQ(errors["glints/grids=2"], errors["glints/ka=16"]);
+  // A footprint cut short is brighter here and darker there: other values, other changes.
+  EXPECT_GT(errors["glints/ka=1"], errors["glints/ka=16"]);
+  auto motion = figuresOf(folder, "frame_to_frame_error");
+  EXPECT_GT(motion["glints/ka=1"], motion["glints/ka=16"]);
+}
+
+TEST(Accuracy, AreaLightsAndMonteCarlo) {
+  const TempFolder folder;
+  const ProcessResult result =
+      runGlintmark(accuracyArguments(folder, "ltc",
+                                     {"--scene", "area_plane/front", "--width", "4", "--knob",
+                                      "horizon", "--knob", "edges", "--knob", "mc_samples"}));
+  ASSERT_EQ(result.exit_code, 0) << result.err << result.out;
+  auto errors = figuresOf(folder, "error");
+  EXPECT_EQ(errors.size(), 11u);
+  for (const char* edges : {"acos", "rational"})
+    EXPECT_NEAR(errors[std::string("ltc/edges=") + edges] / errors["ltc/edges=polynomial"], 1, 0.01)
+        << edges;
+  // The mean squared error of samples that the truth has not used goes with one over their number.
+  EXPECT_NEAR(errors["ltc/mc_samples=4"] / errors["ltc/mc_samples=64"], 16, 6);
+  EXPECT_GT(errors["ltc/mc_samples=1"], errors["ltc/mc_samples=4"]);
+}
+
+TEST(Accuracy, UnknownNamesListTheKnownOnes) {
+  const TempFolder folder;
+  const ProcessResult effect = runGlintmark(accuracyArguments(folder, "snow", {}));
+  EXPECT_EQ(effect.exit_code, 2);
+  EXPECT_NE(effect.err.find("unknown effect 'snow'; effects are glints, ltc, gmm, msbrdf"),
+            std::string::npos)
+      << effect.err;
+  const ProcessResult scene = runGlintmark(accuracyArguments(folder, "gmm", {"--scene", "snow"}));
+  EXPECT_EQ(scene.exit_code, 2);
+  EXPECT_NE(scene.err.find("unknown scene 'snow'; scenes are disk/near"), std::string::npos)
+      << scene.err;
+  const ProcessResult knob = runGlintmark(accuracyArguments(folder, "gmm", {"--knob", "ka"}));
+  EXPECT_EQ(knob.exit_code, 2);
+  EXPECT_NE(knob.err.find("unknown knob 'ka'; knobs are lobes, alignment, probes"),
+            std::string::npos)
+      << knob.err;
+  const ProcessResult rays = runGlintmark(accuracyArguments(folder, "msbrdf", {"--rays", "10"}));
+  EXPECT_EQ(rays.exit_code, 2);
+  EXPECT_NE(rays.err.find("--rays 10 is not from 100000"), std::string::npos) << rays.err;
+  const ProcessResult size = runGlintmark(accuracyArguments(folder, "gmm", {"--size", "0x5"}));
+  EXPECT_EQ(size.exit_code, 2);
+  // Nothing was begun.
+  EXPECT_FALSE(std::filesystem::exists(folder / "r"));
+}
+
+}  // namespace
+}  // namespace glintmark

@@ -1,0 +1,174 @@
+// Knobs that trade accuracy for time: each compiles and stays close to what it stands for, and the
+// settings that spell out a default give its bits.
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <cmath>
+#include <memory>
+
+#include "host/filter/normal_map_generators.h"
+#include "host/fit/ltc_table.h"
+#include "host/frame/frame_renderer.h"
+#include "tests/frame/test_scenes.h"
+
+namespace glintmark {
+namespace {
+
+Device& device() {
+  static Device* const shared = [] {
+    setenv("GLINTMARK_CACHE_DIR", GLINTMARK_BINARY_DIR "/test_cache/programs", 1);
+    setenv("POCL_CACHE_DIR", GLINTMARK_BINARY_DIR "/test_cache/pocl", 1);
+    return new Device;  // lives as long as the program: drivers dislike late teardown
+  }();
+  return *shared;
+}
+
+// Four lanes: compiled fast, and vectors all the same.
+ShadingOptions smallOptions() {
+  ShadingOptions options;
+  options.width_px = 128;
+  options.height_px = 72;
+  options.lanes = 4;
+  return options;
+}
+
+Image radianceOf(const Scene& scene, const ShadingOptions& options, double angle_deg = 20) {
+  FrameRenderer renderer(device(), scene, lookingDown(angle_deg), options, 2);
+  renderer.prepare();
+  renderer.shade();
+  return renderer.readRadiance();
+}
+
+double meanOf(const Image& image) {
+  double sum = 0;
+  for (std::size_t i = 0; i < image.pixels.size(); i += 4) sum += image.pixels[i];
+  return sum / (static_cast<double>(image.pixels.size()) / 4);
+}
+
+// Mean absolute difference over the mean of `b`.
+double relativeDifference(const Image& a, const Image& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.pixels.size(); i += 4) sum += std::abs(a.pixels[i] - b.pixels[i]);
+  return sum / (static_cast<double>(a.pixels.size()) / 4) / meanOf(b);
+}
+
+// Some hundred microdetails under a pixel, of which a few reflect: neither rare nor a crowd.
+Scene sparseScene() {
+  Scene scene = floorScene();
+  scene.materials[0].glint.density = 3e5f;
+  return scene;
+}
+
+Image glints(BinomialForm form, int terms = 16, GlintMethod method = GlintMethod::kZk16) {
+  ShadingOptions options = smallOptions();
+  options.method = method;
+  options.binomial = form;
+  options.binomial_terms = terms;
+  return radianceOf(sparseScene(), options);
+}
+
+Image smooth() {
+  ShadingOptions options = smallOptions();
+  options.glints = false;
+  return radianceOf(sparseScene(), options);
+}
+
+TEST(AccuracyKnobs, SpelledOutDefaultsGiveTheSameBits) {
+  EXPECT_EQ(glints(BinomialForm::kCapped, 16).pixels, glints(BinomialForm::kOfMethod).pixels);
+  EXPECT_EQ(glints(BinomialForm::kExact, 16, GlintMethod::kExact).pixels,
+            glints(BinomialForm::kOfMethod, 16, GlintMethod::kExact).pixels);
+}
+
+TEST(AccuracyKnobs, ExpectedValuesAreTheSmoothLobe) {
+  // Cells hold whole numbers of microdetails, drawn around their mean; the lobe of a cell is that
+  // of its half-vector cell, as wide as the micro roughness: a tenth of the lobe's width.
+  const Image mean = smooth();
+  EXPECT_LT(relativeDifference(glints(BinomialForm::kExpected), mean), 0.1);
+  EXPECT_GT(relativeDifference(glints(BinomialForm::kOfMethod), mean), 0.15);
+}
+
+TEST(AccuracyKnobs, MoreTermsComeCloserToTheExactDraw) {
+  const Image exact = glints(BinomialForm::kExact);
+  const double two = relativeDifference(glints(BinomialForm::kCapped, 2), exact);
+  const double eight = relativeDifference(glints(BinomialForm::kCapped, 8), exact);
+  const double many = relativeDifference(glints(BinomialForm::kCapped, 64), exact);
+  EXPECT_GT(two, eight);
+  EXPECT_GE(eight, many);
+  EXPECT_LT(many, 0.01);
+  // A Gaussian of a mean below one is far off.
+  EXPECT_GT(relativeDifference(glints(BinomialForm::kGaussian), exact), many);
+}
+
+TEST(AccuracyKnobs, OneGridKeepsTheMean) {
+  for (const GlintMethod method : {GlintMethod::kZk16, GlintMethod::kExact}) {
+    ShadingOptions options = smallOptions();
+    options.method = method;
+    const Image two = radianceOf(floorScene(), options);
+    options.grids = 1;
+    const Image one = radianceOf(floorScene(), options);
+    // 9216 pixels, each with a standard deviation of one to two times its mean: 2 %.
+    EXPECT_NEAR(meanOf(one) / meanOf(two), 1, 0.08);
+    EXPECT_NE(one.pixels, two.pixels);
+  }
+}
+
+TEST(AccuracyKnobs, TheDevicesMathsShowTheSamePicture) {
+  ShadingOptions options = smallOptions();
+  const Image own = radianceOf(floorScene(), options);
+  for (const Maths maths : {Maths::kNative, Maths::kPrecise}) {
+    options.maths = maths;
+    // A draw on the edge may fall the other way in a pixel here and there.
+    EXPECT_LT(relativeDifference(radianceOf(floorScene(), options), own), 0.01);
+  }
+}
+
+Scene areaLightScene() {
+  Scene scene = floorScene();
+  scene.lights.clear();
+  scene.materials[0].has_glints = false;
+  scene.materials[0].ggx = true;
+  AreaLight lamp;
+  lamp.vertices = {{-1, 0.3, -2.5}, {1, 0.3, -2.5}, {1, 1.8, -2.5}, {-1, 1.8, -2.5}};
+  lamp.radiance = {4, 4, 4};
+  lamp.two_sided = true;
+  scene.area_lights = {lamp};
+  return scene;
+}
+
+TEST(AccuracyKnobs, EdgeIntegralsAgree) {
+  ShadingOptions options = smallOptions();
+  const Image fit = radianceOf(areaLightScene(), options);
+  ASSERT_GT(meanOf(fit), 0);
+  options.edges = EdgeIntegral::kAcos;
+  EXPECT_LT(relativeDifference(radianceOf(areaLightScene(), options), fit), 1e-3);
+  options.edges = EdgeIntegral::kRational;
+  EXPECT_LT(relativeDifference(radianceOf(areaLightScene(), options), fit), 1e-2);
+}
+
+TEST(AccuracyKnobs, TablesOfCosinesInPlaceOfTheShippedOne) {
+  ShadingOptions options = smallOptions();
+  const Image shipped = radianceOf(areaLightScene(), options);
+  options.ltc_table = std::make_shared<const LtcTable>(shippedLtcTable(reference::Ndf::kGgx));
+  EXPECT_EQ(radianceOf(areaLightScene(), options).pixels, shipped.pixels);
+  options.ltc_table = nullptr;
+  options.ltc_half = true;
+  const Image half = radianceOf(areaLightScene(), options);
+  EXPECT_LT(relativeDifference(half, shipped), 1e-2);  // halves have 11 bits
+  EXPECT_NE(half.pixels, shipped.pixels);
+}
+
+TEST(AccuracyKnobs, IterationsOfTheFitReachTheMixtures) {
+  Scene scene = floorScene();
+  scene.materials[0].has_glints = false;
+  scene.materials[0].normal_map = NormalMapSource{
+      std::make_shared<const NormalMap>(generateNormalMap({.kind = "disk", .size_px = 32})), 4};
+  ShadingOptions options = smallOptions();
+  const Image standard = radianceOf(scene, options);
+  options.mixture_iterations = MixtureOptions{}.max_iterations;
+  EXPECT_EQ(radianceOf(scene, options).pixels, standard.pixels);
+  options.mixture_iterations = 1;
+  EXPECT_NE(radianceOf(scene, options).pixels, standard.pixels);
+}
+
+}  // namespace
+}  // namespace glintmark
