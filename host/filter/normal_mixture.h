@@ -40,10 +40,8 @@ enum class MixtureOrder {
 struct MixtureOptions {
   int lobes = 4;  // 1..kMaxLobes
   MixtureOrder order = MixtureOrder::kScanline;
-  int sweeps = 1;  // over each level, coarse to fine, >= 1
-  // EM steps of a texel in a sweep, >= 1; the coarsest level has more. From 1 to 16 the frames'
-  // error differs by 6 % (docs/accuracy.md).
-  int max_iterations = 4;
+  int sweeps = 1;           // over each level, coarse to fine, >= 1
+  int max_iterations = 4;   // EM steps of a texel in a sweep, >= 1; the coarsest level has more
   float tolerance = 2e-3f;  // converged when no weight or mean moves further in a step, > 0
   float prior_weight = 1;   // the paper's C, >= 0
   int threads = 0;          // 0: all cores

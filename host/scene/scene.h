@@ -57,9 +57,7 @@ View orbitView(const View& base, const Orbit& orbit);
 /// A material's normals in finer detail than its mesh.
 struct NormalMapSource {
   std::shared_ptr<const NormalMap> map;
-  // Gaussians per texel where mixtures stand for the map, 1 to 8. 2 take 0.67 of 4's time for 1.36
-  // times the error, 6 take 1.39 of it for 0.93 (docs/accuracy.md).
-  int lobes = 4;
+  int lobes = 4;  // Gaussians per texel where mixtures stand for the map, 1 to 8; docs/accuracy.md
 };
 
 /// Diffuse lobe: Lambert's, or a rough surface that light leaves after several bounces, [PAT18]
