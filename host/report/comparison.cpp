@@ -7,7 +7,6 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <tuple>
 
 #include "host/report/text_table.h"
@@ -41,14 +40,11 @@ Key keyOf(const Record& record) {
   return {record.table, record.case_, record.metric, std::move(config)};
 }
 
-// Two-sided p-value of "both medians are the same"; nothing if a spread is not known, both are 0, or
-// something is not finite.
+// Two-sided p-value of "both medians are the same"; nothing if a spread is not known, both are 0,
+// or something is not finite.
 std::optional<double> welchOnMedians(const Summary& a, const Summary& b) {
   if (a.n < 2 || b.n < 2) return std::nullopt;
-  const auto variance_of_median = [](const Summary& s) {
-    return std::numbers::pi / 2 * s.stddev * s.stddev / static_cast<double>(s.n);
-  };
-  const double va = variance_of_median(a), vb = variance_of_median(b);
+  const double va = std::pow(medianStandardError(a), 2), vb = std::pow(medianStandardError(b), 2);
   if (!(va + vb > 0)) return std::nullopt;
   const double t = std::abs(a.median - b.median) / std::sqrt(va + vb);
   // Welch-Satterthwaite.
