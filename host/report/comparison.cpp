@@ -20,13 +20,19 @@ bool isTime(const Record& record) {
   return record.unit == "ms" || record.unit == "ns" || record.unit == "s";
 }
 
+// Ratios of times whose numerator is what this program wants to be fast.
+constexpr const char* kCostRatios[] = {"time_ratio",           "mixed_over_sum",
+                                       "mixed_over_sum_worst", "gmm_over_toksvig",
+                                       "tao21_over_original",  "multiscale_over_original"};
+
 Direction directionOf(const Record& record) {
   const std::string& metric = record.metric;
   const auto has = [&](const char* part) { return metric.find(part) != std::string::npos; };
   if (metric.ends_with("per_s") || metric == "fps" || metric.starts_with("speedup"))
     return Direction::kHigherIsBetter;
   if (isTime(record) || record.unit == "bytes" || record.unit == "instructions" || has("cost") ||
-      has("error") || has("bias") || metric == "rel_mse")
+      has("error") || has("bias") || metric == "rel_mse" ||
+      std::ranges::count(kCostRatios, metric) > 0)
     return Direction::kLowerIsBetter;
   return Direction::kNeither;
 }
