@@ -1,7 +1,6 @@
 // Knobs that trade accuracy for time: each compiles and stays close to what it stands for, and the
 // settings that spell out a default give its bits.
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <cmath>
 #include <memory>
@@ -9,25 +8,14 @@
 #include "host/filter/normal_map_generators.h"
 #include "host/fit/ltc_table.h"
 #include "host/frame/frame_renderer.h"
-#include "tests/frame/test_scenes.h"
+#include "tests/frame/frame_test.h"
 
 namespace glintmark {
 namespace {
 
-Device& device() {
-  static Device* const shared = [] {
-    setenv("GLINTMARK_CACHE_DIR", GLINTMARK_BINARY_DIR "/test_cache/programs", 1);
-    setenv("POCL_CACHE_DIR", GLINTMARK_BINARY_DIR "/test_cache/pocl", 1);
-    return new Device;  // lives as long as the program: drivers dislike late teardown
-  }();
-  return *shared;
-}
-
 // Four lanes: compiled fast, and vectors all the same.
-ShadingOptions smallOptions() {
-  ShadingOptions options;
-  options.width_px = 128;
-  options.height_px = 72;
+ShadingOptions fewLanes() {
+  ShadingOptions options = smallOptions();
   options.lanes = 4;
   return options;
 }
@@ -60,7 +48,7 @@ Scene sparseScene() {
 }
 
 Image glints(BinomialForm form, int terms = 16, GlintMethod method = GlintMethod::kZk16) {
-  ShadingOptions options = smallOptions();
+  ShadingOptions options = fewLanes();
   options.method = method;
   options.binomial = form;
   options.binomial_terms = terms;
@@ -68,7 +56,7 @@ Image glints(BinomialForm form, int terms = 16, GlintMethod method = GlintMethod
 }
 
 Image smooth() {
-  ShadingOptions options = smallOptions();
+  ShadingOptions options = fewLanes();
   options.glints = false;
   return radianceOf(sparseScene(), options);
 }
@@ -101,7 +89,7 @@ TEST(AccuracyKnobs, MoreTermsComeCloserToTheExactDraw) {
 
 TEST(AccuracyKnobs, OneGridKeepsTheMean) {
   for (const GlintMethod method : {GlintMethod::kZk16, GlintMethod::kExact}) {
-    ShadingOptions options = smallOptions();
+    ShadingOptions options = fewLanes();
     options.method = method;
     const Image two = radianceOf(floorScene(), options);
     options.grids = 1;
@@ -113,7 +101,7 @@ TEST(AccuracyKnobs, OneGridKeepsTheMean) {
 }
 
 TEST(AccuracyKnobs, TheDevicesMathsShowTheSamePicture) {
-  ShadingOptions options = smallOptions();
+  ShadingOptions options = fewLanes();
   const Image own = radianceOf(floorScene(), options);
   for (const Maths maths : {Maths::kNative, Maths::kPrecise}) {
     options.maths = maths;
@@ -136,7 +124,7 @@ Scene areaLightScene() {
 }
 
 TEST(AccuracyKnobs, EdgeIntegralsAgree) {
-  ShadingOptions options = smallOptions();
+  ShadingOptions options = fewLanes();
   const Image fit = radianceOf(areaLightScene(), options);
   ASSERT_GT(meanOf(fit), 0);
   options.edges = EdgeIntegral::kAcos;
@@ -146,7 +134,7 @@ TEST(AccuracyKnobs, EdgeIntegralsAgree) {
 }
 
 TEST(AccuracyKnobs, TablesOfCosinesInPlaceOfTheShippedOne) {
-  ShadingOptions options = smallOptions();
+  ShadingOptions options = fewLanes();
   const Image shipped = radianceOf(areaLightScene(), options);
   options.ltc_table = std::make_shared<const LtcTable>(shippedLtcTable(reference::Ndf::kGgx));
   EXPECT_EQ(radianceOf(areaLightScene(), options).pixels, shipped.pixels);
@@ -162,7 +150,7 @@ TEST(AccuracyKnobs, IterationsOfTheFitReachTheMixtures) {
   scene.materials[0].has_glints = false;
   scene.materials[0].normal_map = NormalMapSource{
       std::make_shared<const NormalMap>(generateNormalMap({.kind = "disk", .size_px = 32})), 4};
-  ShadingOptions options = smallOptions();
+  ShadingOptions options = fewLanes();
   const Image standard = radianceOf(scene, options);
   options.mixture_iterations = MixtureOptions{}.max_iterations;
   EXPECT_EQ(radianceOf(scene, options).pixels, standard.pixels);
