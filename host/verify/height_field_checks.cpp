@@ -56,21 +56,31 @@ Finding balance(int lanes) {
   return finding;
 }
 
+// Smooth to rough and steep to grazing, every kind of surface; flat ones send everything back,
+// black ones nothing.
 Finding extremes(int lanes) {
   Finding finding(0);
-  for (const double alpha : {0.001, 1.0})
-    for (const double incidence_deg : {0.0, 89.9}) {
-      SimulationSettings s;
-      s.alpha = glm::dvec2(alpha);
-      s.incidence_deg = incidence_deg;
-      s.orders = 6;
-      s.rays = 20000;
-      const Simulation simulation = simulate(s, lanes);
-      addBalance(finding, simulation);
-      finding.require(orderEnergy(simulation, 1, 0) == 0, "albedo 0 reflects");
-      finding.require(alpha > 0.01 || orderEnergy(simulation, 1) > 0.97,
-                      "a flat surface hides light from itself");
-    }
+  for (const SurfaceKind kind :
+       {SurfaceKind::kDiffuse, SurfaceKind::kMetal, SurfaceKind::kDielectric})
+    for (const double alpha : {0.001, 0.03, 1.0})
+      for (const double incidence_deg : {0.0, 60.0, 89.9}) {
+        SimulationSettings s;
+        s.kind = kind;
+        s.alpha = glm::dvec2(alpha);
+        s.incidence_deg = incidence_deg;
+        s.index_k = 3;
+        s.orders = HF_MAX_ORDERS;
+        s.rays = 5000;
+        const Simulation simulation = simulate(s, lanes);
+        finding.add(std::abs(simulation.balance() - 1));
+        finding.require(simulation.rays_done == s.rays, "rays are missing");
+        finding.require(simulation.gaveUp() <= (kind == SurfaceKind::kDiffuse ? 0u : 1u),
+                        fmt::format("{} of 5000 rays gave up", simulation.gaveUp()));
+        finding.require(orderEnergy(simulation, 1, 0) == 0, "albedo 0 reflects");
+        finding.require(
+            kind != SurfaceKind::kDiffuse || alpha > 0.01 || orderEnergy(simulation, 1) > 0.97,
+            "a flat surface hides light from itself");
+      }
   return finding;
 }
 

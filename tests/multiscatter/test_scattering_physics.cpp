@@ -280,23 +280,6 @@ TEST(ScatteringPhysics, EveryOrderConservesEnergy) {
   }
 }
 
-TEST(ScatteringPhysics, ExtremesLoseNoRay) {
-  for (const SurfaceKind kind :
-       {SurfaceKind::kDiffuse, SurfaceKind::kMetal, SurfaceKind::kDielectric})
-    for (const double alpha : {0.001, 0.03, 1.0})
-      for (const double incidence_deg : {0.0, 60.0, 89.9}) {
-        SimulationSettings s;
-        s.kind = kind;
-        s.alpha = glm::dvec2(alpha);
-        s.incidence_deg = incidence_deg;
-        s.index_k = 3;
-        s.rays = 5000;
-        const Simulation simulation = simulate(s);
-        EXPECT_EQ(simulation.balance(), 1) << alpha << " " << incidence_deg;
-        EXPECT_LE(simulation.gaveUp(), 1u) << alpha << " " << incidence_deg;
-      }
-}
-
 // Cells that no ray meets, and no rays at all.
 TEST(ScatteringPhysics, EmptyHistogramsAreDrawn) {
   SimulationSettings s = mirror(0.001, 0, 100);
