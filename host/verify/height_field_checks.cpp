@@ -7,6 +7,7 @@
 #include "host/simulate/simulation.h"
 #include "host/verify/check_groups.h"
 #include "host/verify/pixel_harness.h"
+#include "host/verify/simulation_cases.h"
 #include "host/verify/tolerances.h"
 
 namespace glintmark {
@@ -15,18 +16,6 @@ namespace {
 Simulation simulate(const SimulationSettings& settings, int lanes) {
   KernelBench& bench = KernelBench::shared();
   return Simulator(bench.device, bench.cache, lanes).run(settings);
-}
-
-// A mirror whose Fresnel term is 1.
-SimulationSettings mirror(double alpha, double incidence_deg, std::uint64_t rays) {
-  SimulationSettings s;
-  s.kind = SurfaceKind::kMetal;
-  s.index_n = 0.05;
-  s.index_k = 1000;
-  s.alpha = glm::dvec2(alpha);
-  s.incidence_deg = incidence_deg;
-  s.rays = rays;
-  return s;
 }
 
 // What left, was absorbed, was left over or given up is every ray, once.

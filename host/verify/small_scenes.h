@@ -1,6 +1,8 @@
 // Small scenes made by hand.
 #pragma once
 #include <glm/glm.hpp>
+#include <memory>
+#include <utility>
 
 #include "host/scene/scene.h"
 
@@ -51,6 +53,30 @@ inline Scene floorScene() {
   sun.direction = {0, 0.8f, -0.6f, 0};
   sun.irradiance = {3, 3, 3, 0};
   scene.lights = {sun};
+  return scene;
+}
+
+/// A metal floor with a normal map, four lobes a texel, under two lights.
+inline Scene mappedFloor(NormalMap map) {
+  Scene scene;
+  Material material;
+  material.name = "metal";
+  material.has_glints = false;
+  material.glint.alpha_g = {0.3f, 0.3f};
+  material.glint.alpha_l = {0.1f, 0.1f};
+  material.glint.density = 1;
+  material.glint.intensity = 1;
+  material.glint.f0 = {0.9f, 0.8f, 0.7f, 0};
+  material.glint.albedo = {0.1f, 0.1f, 0.1f, 0};
+  material.normal_map = {std::make_shared<const NormalMap>(std::move(map)), 4};
+  scene.materials = {material};
+  addFloor(scene, -8, 8, 0);
+  for (const float x : {-0.5f, 0.4f}) {
+    ConeLight light{};
+    light.direction = {x, 0.75f, -0.5f, 0};
+    light.irradiance = {2, 2, 2, 0};
+    scene.lights.push_back(light);
+  }
   return scene;
 }
 

@@ -1,6 +1,7 @@
 // One device for the tests of simulations.
 #pragma once
 #include "host/simulate/simulation.h"
+#include "host/verify/simulation_cases.h"
 
 namespace glintmark {
 
@@ -22,18 +23,6 @@ inline Simulation simulate(const SimulationSettings& settings, int lanes = 0) {
   Bench& bench = Bench::shared();
   return Simulator(bench.device, bench.cache, lanes > 0 ? lanes : bench.device.info().default_lanes)
       .run(settings);
-}
-
-// A mirror whose Fresnel term is 1.
-inline SimulationSettings mirror(double alpha, double incidence_deg, std::uint64_t rays) {
-  SimulationSettings s;
-  s.kind = SurfaceKind::kMetal;
-  s.index_n = 0.05;
-  s.index_k = 1000;
-  s.alpha = glm::dvec2(alpha);
-  s.incidence_deg = incidence_deg;
-  s.rays = rays;
-  return s;
 }
 
 }  // namespace glintmark
