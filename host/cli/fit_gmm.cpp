@@ -37,11 +37,12 @@ constexpr int kMostPasses = 16;
 constexpr int kMostSeed = 1 << 30;
 
 struct FitGmmCommand {
-  std::string source, output, picture, check, order = mixtureOrderName(MixtureOptions{}.order);
+  std::string source, scene, material, output, picture, check,
+      order = mixtureOrderName(MixtureOptions{}.order);
   std::string content = "auto", green = "up";
   int size_px = NormalMapRecipe{}.size_px, seed = 1;
   double height_scale = 0;  // 0: the source's own default
-  bool has_height_scale = false, refit = false;
+  bool has_height_scale = false, has_lobes = false, refit = false;
   MixtureOptions options;
 };
 
@@ -78,7 +79,28 @@ void check(FitGmmCommand& command) {
   if (!command.picture.empty()) requireWritablePicture(command.picture);
 }
 
-NormalMap loadMap(const FitGmmCommand& command) {
+// The map of the scene's chosen material, or of the first that has one; the lobes too, unless the
+// command line says how many.
+NormalMap sceneMap(const CommonOptions& common, FitGmmCommand& command) {
+  const Scene scene = openScene(common, command.scene);
+  std::vector<std::string> mapped;
+  for (const Material& material : scene.materials) {
+    if (!material.normal_map) continue;
+    mapped.push_back(material.name);
+    if (!command.material.empty() && command.material != material.name) continue;
+    if (!command.has_lobes) command.options.lobes = material.normal_map->lobes;
+    return *material.normal_map->map;
+  }
+  if (mapped.empty()) throw Error(fmt::format("scene '{}' has no normal map", scene.name));
+  throw Error(fmt::format("scene '{}' has no material '{}' with a normal map; it has {}",
+                          scene.name, command.material, fmt::join(mapped, ", ")));
+}
+
+NormalMap loadMap(const CommonOptions& common, FitGmmCommand& command) {
+  if (command.source.empty() == command.scene.empty()) {
+    throw Error("fit gmm needs a map or a --scene, one of the two");
+  }
+  if (!command.scene.empty()) return sceneMap(common, command);
   NormalMapDecoding decoding;
   decoding.content =
       static_cast<MapContent>(choice("--content", command.content, {"auto", "normals", "heights"}));
@@ -187,7 +209,7 @@ void writePicture(const FitGmmCommand& command, const Fitted& fitted) {
 int runFitGmm(const CommonOptions& common, FitGmmCommand& command) {
   check(command);
   command.options.threads = common.threads;
-  NormalMap map = loadMap(command);
+  NormalMap map = loadMap(common, command);
   const Fitted fitted = command.check.empty() ? fitMap(command, std::move(map), common.quiet)
                                               : readFitted(command, std::move(map));
   if (!command.output.empty()) writeFile(command.output, serializeMixtures(fitted.mixtures));
@@ -206,8 +228,14 @@ void addFitGmmCommand(CLI::App& fit, CommandLine& line) {
       ->add_option(
           "map", options->source,
           fmt::format("Image of normals or heights, or {}", fmt::join(normalMapGenerators(), ", ")))
-      ->required();
-  command->add_option("--lobes", options->options.lobes, "Gaussians a texel, 1 to 8 (default: 4)");
+      ->type_name("MAP");
+  command->add_option("--scene", options->scene, "A scene's map instead, with --set as elsewhere");
+  command->add_option("--material", options->material,
+                      "Which of the scene's materials (default: the first with a map)");
+  command
+      ->add_option("--lobes", options->options.lobes,
+                   "Gaussians a texel, 1 to 8 (default: the scene's, or 4)")
+      ->each([options](const std::string&) { options->has_lobes = true; });
   command->add_option("--order", options->order,
                       "colours, scanline (as published), independent (default: colours)");
   command->add_option("--iterations", options->options.max_iterations,
@@ -236,6 +264,7 @@ void addFitGmmCommand(CLI::App& fit, CommandLine& line) {
       "  glintmark fit gmm disk --lobes 4 -o disk.mixtures --picture disk.png\n"
       "  glintmark fit gmm stone_normal.png --green down --passes 2\n"
       "  glintmark fit gmm height.exr --content heights --height-scale 0.1\n"
+      "  glintmark fit gmm --scene armour --set material.armour.normal_map.size_px=1024\n"
       "  glintmark fit gmm disk --check disk.mixtures");
   command->callback([options, &line] {
     line.action = [options, &line] { return runFitGmm(line.common, *options); };
