@@ -35,17 +35,30 @@ WIDE Covered coveredNormals(constant const MixtureFitRun* run, const TexelLanes*
   return c;
 }
 
-// Normal `j` of each lane; those beyond a texel's own have weight 0.
-WIDE void loadNormal(constant const MixtureFitRun* run, global const float* normal_x,
-                     global const float* normal_y, const Covered* c, int j, vfloat* x, vfloat* y,
-                     vfloat* weight) {
-  const int row = j / run->most_columns;
-  const vint column = c->first + (j - row * run->most_columns);
-  const vint at = (c->first_row + row) * run->map_width + column;
-  *x = gatherFloat(normal_x, at);
-  *y = gatherFloat(normal_y, at);
-  *weight = coverWeightScalar(c->first_row + row, c->y, run->height, run->map_height) *
-            coverWeight(column, c->x, run->width, run->map_width);
+// Where a walk over those normals, row by row, has come to.
+typedef struct {
+  int row, column;  // from the first
+  float row_weight;
+} NormalCursor;
+
+WIDE void startRow(constant const MixtureFitRun* run, const Covered* c, NormalCursor* at, int row) {
+  at->row = row;
+  at->column = 0;
+  at->row_weight = coverWeightScalar(c->first_row + row, c->y, run->height, run->map_height);
+}
+
+// The next normal of each lane; those beyond a texel's own have weight 0.
+WIDE void nextNormal(constant const MixtureFitRun* run, global const float* normal_x,
+                     global const float* normal_y, const Covered* c, NormalCursor* at, vfloat* x,
+                     vfloat* y, vfloat* weight) {
+  const vint column = c->first + at->column;
+  const vint place = (c->first_row + at->row) * run->map_width + column;
+  *x = gatherFloat(normal_x, place);
+  *y = gatherFloat(normal_y, place);
+  *weight = (vfloat)(at->row_weight);
+  if (run->most_columns * run->width != run->map_width)
+    *weight *= coverWeight(column, c->x, run->width, run->map_width);
+  if (++at->column == run->most_columns) startRow(run, c, at, at->row + 1);
 }
 
 // E-step over all normals. kept: the normals of the last step, if all have room there and `again`.
@@ -55,13 +68,14 @@ WIDE MixtureSums expectTexels(constant const MixtureFitRun* run, global const fl
   const MixtureDensity density = densityOf(m);
   MixtureSums sums = noSums();
   const int normals = c->rows * run->most_columns;
+  NormalCursor at;
+  startRow(run, c, &at, 0);
 #if WIDTH > 1
   for (int begin = 0; begin < normals; begin += KEPT_NORMALS) {
     const int count = min(normals - begin, KEPT_NORMALS);
     if (!again || normals > KEPT_NORMALS) {
       for (int j = 0; j < count; ++j)
-        loadNormal(run, normal_x, normal_y, c, begin + j, &kept->x[j], &kept->y[j],
-                   &kept->weight[j]);
+        nextNormal(run, normal_x, normal_y, c, &at, &kept->x[j], &kept->y[j], &kept->weight[j]);
     }
     for (int j = 0; j < count; ++j)
       addNormal(&sums, &density, kept->x[j], kept->y[j], kept->weight[j], likelihood);
@@ -69,7 +83,7 @@ WIDE MixtureSums expectTexels(constant const MixtureFitRun* run, global const fl
 #else
   for (int j = 0; j < normals; ++j) {
     vfloat x, y, weight;
-    loadNormal(run, normal_x, normal_y, c, j, &x, &y, &weight);
+    nextNormal(run, normal_x, normal_y, c, &at, &x, &y, &weight);
     addNormal(&sums, &density, x, y, weight, likelihood);
   }
 #endif
