@@ -16,6 +16,7 @@
 #include "host/filter/mixture_error.h"
 #include "host/filter/mixture_file.h"
 #include "host/filter/normal_map_generators.h"
+#include "host/fit/device_mixture_fit.h"
 #include "host/report/atomic_file.h"
 #include "host/report/image_io.h"
 #include "host/report/picture_strip.h"
@@ -39,7 +40,7 @@ constexpr int kMostSeed = 1 << 30;
 struct FitGmmCommand {
   std::string source, scene, material, output, picture, check,
       order = mixtureOrderName(MixtureOptions{}.order);
-  std::string content = "auto", green = "up";
+  std::string content = "auto", green = "up", on = "host";
   int size_px = NormalMapRecipe{}.size_px, seed = 1;
   double height_scale = 0;  // 0: the source's own default
   bool has_height_scale = false, has_lobes = false, refit = false;
@@ -73,6 +74,7 @@ void check(FitGmmCommand& command) {
   requireRange("--iterations", command.options.max_iterations, 1, kMostIterations);
   requireRange("--passes", command.options.passes, 1, kMostPasses);
   requireRange("--size", command.size_px, 1, kMaxNormalMapSize_px);
+  choice("--on", command.on, {"host", "device"});
   requireRange("--seed", command.seed, 0, kMostSeed);
   command.options.order = parseMixtureOrder(command.order);
   if (!command.output.empty()) requireWritableFile(command.output);
@@ -121,13 +123,20 @@ NormalMap loadMap(const CommonOptions& common, FitGmmCommand& command) {
   return readNormalMap(command.source, readImage, decoding);
 }
 
-Fitted fitMap(const FitGmmCommand& command, NormalMap map, bool quiet) {
+Fitted fitMap(const CommonOptions& common, const FitGmmCommand& command, NormalMap map) {
   const InterruptGuard guard;
-  Progress progress(quiet);
+  Progress progress(common.quiet);
   const auto show = [&](double share) {
     if (InterruptGuard::interrupted()) throw Interrupted("interrupted; nothing was written");
     progress.show(static_cast<int>(share * 100), 100, "% of the fit");
   };
+  if (command.on == "device") {
+    Device device = openDevice(common);
+    ProgramCache cache(device);
+    NormalMixtures mixtures =
+        fitMixturesOnDevice(device, cache, chosenLanes(common, device), map, command.options, show);
+    return {std::move(map), std::move(mixtures), true};
+  }
   if (command.refit) {
     NormalMixtures mixtures = fitNormalMixtures(map, command.options, show);
     return {std::move(map), std::move(mixtures), true};
@@ -210,7 +219,7 @@ int runFitGmm(const CommonOptions& common, FitGmmCommand& command) {
   check(command);
   command.options.threads = common.threads;
   NormalMap map = loadMap(common, command);
-  const Fitted fitted = command.check.empty() ? fitMap(command, std::move(map), common.quiet)
+  const Fitted fitted = command.check.empty() ? fitMap(common, command, std::move(map))
                                               : readFitted(command, std::move(map));
   if (!command.output.empty()) writeFile(command.output, serializeMixtures(fitted.mixtures));
   if (!command.picture.empty()) writePicture(command, fitted);
@@ -258,6 +267,8 @@ void addFitGmmCommand(CLI::App& fit, CommandLine& line) {
   command
       ->add_option("--picture", options->picture, "Lobes of a level, with and without neighbours")
       ->type_name("FILE.png");
+  command->add_option("--on", options->on,
+                      "host or device, which fits anew each time (default: host)");
   command->add_flag("--refit", options->refit, "Do not look into the cache");
   command->footer(
       "Examples:\n"

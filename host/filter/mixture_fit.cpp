@@ -12,6 +12,7 @@
 #include "host/core/error.h"
 #include "host/core/stopwatch.h"
 #include "host/filter/mixture_em.h"
+#include "host/filter/mixture_fit_types.h"
 #include "host/filter/mixture_level.h"
 #include "host/filter/mixture_order.h"
 #include "host/filter/mixture_start.h"
@@ -20,35 +21,10 @@
 namespace glintmark {
 namespace {
 
-// Normals that a clustered start looks at.
-constexpr std::size_t kStartNormals = 4096;
-// A texel begins with its parent's lobes; their weights are mixed with equal ones by this share, so
-// that a lobe the parent hardly uses can come back.
-constexpr float kStartMix = 0.5f;
-// Fitted lobes below this weight are given up: their normals go to the others.
-constexpr float kLeastWeight = 1e-3f;
 // Normals that one task adds up in single precision before the sums continue in double.
 constexpr std::size_t kTaskNormals = 16384;
-// EM steps of the coarsest level, whose lobes all others begin with.
-constexpr int kRootIterations = 64;
 // Blocks per task.
 constexpr int kGrain = 8;
-
-void checkOptions(const MixtureOptions& options) {
-  const auto require = [](bool good, const char* sentence) {
-    if (!good) throw Error(sentence);
-  };
-  if (options.lobes < 1 || options.lobes > kMaxLobes) {
-    throw Error(
-        fmt::format("a mixture cannot have {} lobes; it has 1 to {}", options.lobes, kMaxLobes));
-  }
-  require(options.passes >= 1, "a fit of mixtures needs at least 1 pass");
-  require(options.sweeps >= 1, "a fit of mixtures needs at least 1 sweep");
-  require(options.max_iterations >= 1, "a fit of mixtures needs at least 1 iteration");
-  require(options.tolerance > 0, "the tolerance of a fit of mixtures must be above 0");
-  require(options.prior_weight >= 0, "the prior weight of a fit of mixtures must be 0 or more");
-  require(options.threads >= 0, "the number of threads must be 0 (all cores) or more");
-}
 
 // Sums over the texels of a level.
 struct Tally {
@@ -229,7 +205,7 @@ class MixtureFit {
     int iterations = 0, converged = 0;
     const bool root = round.first_sweep && round.level == level_count_ - 1;
     const int limit =
-        root ? std::max(kRootIterations, options_.max_iterations) : options_.max_iterations;
+        root ? std::max(MF_ROOT_ITERATIONS, options_.max_iterations) : options_.max_iterations;
     while (iterations < limit && converged < texels.count) {
       expect(geometry, texels, scratch, false, block);
       maximizeBlock(block, options_.lobes);
@@ -253,7 +229,8 @@ class MixtureFit {
     const bool clustered =
         options_.order == MixtureOrder::kIndependent || round.level == level_count_ - 1;
     if (round.first_sweep && clustered) {
-      const auto clusters = clusterNormals(geometry.sample(texel, kStartNormals), options_.lobes);
+      const auto clusters =
+          clusterNormals(geometry.sample(texel, MF_START_NORMALS), options_.lobes);
       for (int i = 0; i < options_.lobes; ++i) {
         const NormalLobe& c = clusters[i];
         setLobe(block, i, lane, {c.weight, c.mean.x, c.mean.y, c.variance}, 0);
@@ -263,7 +240,7 @@ class MixtureFit {
     const float4* from =
         round.first_sweep ? parent(geometry, round.level, texel) : state(round.level, texel);
     for (int i = 0; i < options_.lobes; ++i) {
-      setLobe(block, i, lane, from[i], round.first_sweep ? kStartMix : 0);
+      setLobe(block, i, lane, from[i], round.first_sweep ? MF_START_MIX : 0);
     }
   }
 
@@ -271,7 +248,7 @@ class MixtureFit {
     block.weight[i][lane] = lobe.x + mix * (1.0f / static_cast<float>(options_.lobes) - lobe.x);
     block.mean_x[i][lane] = lobe.y;
     block.mean_y[i][lane] = lobe.z;
-    block.variance[i][lane] = std::max(lobe.w, kMinFitVariance);
+    block.variance[i][lane] = std::max(lobe.w, MF_MIN_VARIANCE);
   }
 
   const float4* parent(const MixtureLevel& geometry, int level, glm::ivec2 texel) {
@@ -318,7 +295,7 @@ class MixtureFit {
       const float4* lobes = state(level, texels.at(lane));
       for (int i = 0; i < options_.lobes; ++i) {
         setLobe(block, i, lane, lobes[i], 0);
-        if (lobes[i].x < kLeastWeight) block.weight[i][lane] = 0;
+        if (lobes[i].x < MF_LEAST_WEIGHT) block.weight[i][lane] = 0;
       }
     }
     expect(geometry, texels, gather(geometry, texels), true, block);
@@ -356,9 +333,25 @@ class MixtureFit {
 
 }  // namespace
 
+void checkMixtureOptions(const MixtureOptions& options) {
+  const auto require = [](bool good, const char* sentence) {
+    if (!good) throw Error(sentence);
+  };
+  if (options.lobes < 1 || options.lobes > kMaxLobes) {
+    throw Error(
+        fmt::format("a mixture cannot have {} lobes; it has 1 to {}", options.lobes, kMaxLobes));
+  }
+  require(options.passes >= 1, "a fit of mixtures needs at least 1 pass");
+  require(options.sweeps >= 1, "a fit of mixtures needs at least 1 sweep");
+  require(options.max_iterations >= 1, "a fit of mixtures needs at least 1 iteration");
+  require(options.tolerance > 0, "the tolerance of a fit of mixtures must be above 0");
+  require(options.prior_weight >= 0, "the prior weight of a fit of mixtures must be 0 or more");
+  require(options.threads >= 0, "the number of threads must be 0 (all cores) or more");
+}
+
 NormalMixtures fitNormalMixtures(const NormalMap& map, const MixtureOptions& options,
                                  const std::function<void(double)>& progress) {
-  checkOptions(options);
+  checkMixtureOptions(options);
   checkNormalMap(map);
   tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic : options.threads);
   return arena.execute([&] { return MixtureFit(map, options, progress).run(); });

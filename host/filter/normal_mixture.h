@@ -48,6 +48,9 @@ struct MixtureOptions {
   int threads = 0;          // 0: all cores
 };
 
+/// Throws Error for an option out of the ranges above.
+void checkMixtureOptions(const MixtureOptions& options);
+
 struct MixtureLevelReport {
   int width_px = 0, height_px = 0;
   double mean_iterations = 0;  // per texel, over all sweeps and passes
