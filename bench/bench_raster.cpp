@@ -1,7 +1,5 @@
-// How fast is the rasterizer? Curves over image size and triangle count, and Embree's primary rays
-// measured alternately on the same mesh.
-//
-//   bench_raster [--compare_only] [Google Benchmark options]
+// How fast is the rasterizer? Curves over image size and triangle count; with --embree, and nothing
+// else, Embree's primary rays measured alternately on the same mesh.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -12,6 +10,7 @@
 #include <map>
 #include <vector>
 
+#include "bench/device_bench.h"
 #include "bench/embree_primary_rays.h"
 #include "host/core/statistics.h"
 #include "host/raster/rasterizer.h"
@@ -195,12 +194,10 @@ void compareWithEmbree() {
 }  // namespace glintmark::bench
 
 int main(int argc, char** argv) {
-  const bool compare_only = argc > 1 && std::strcmp(argv[1], "--compare_only") == 0;
-  glintmark::bench::compareWithEmbree();
-  if (compare_only) return 0;
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  benchmark::RunSpecifiedBenchmarks();
-  benchmark::Shutdown();
-  return 0;
+  using namespace glintmark::bench;
+  if (argc > 1 && std::strcmp(argv[1], "--embree") == 0) {
+    compareWithEmbree();
+    return 0;
+  }
+  return runHostBenchmarks(argc, argv, [] {});
 }

@@ -27,7 +27,7 @@
 #define GLINTMARK_LTC_TABLE_H
 
 #define LTC_SIZE_MIN 8
-#define LTC_SIZE_DEFAULT 64
+#define LTC_SIZE_DEFAULT 64  // 16 would do for frames (docs/accuracy.md), not for narrow lobes
 #define LTC_SIZE_MAX 128
 
 // Smallest roughness that readers may pass on: below it single precision loses the last row.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "host/core/error.h"
@@ -37,6 +38,10 @@ Summary summarize(std::span<const double> samples) {
   summary.stddev =
       sorted.size() > 1 ? std::sqrt(squares / static_cast<double>(sorted.size() - 1)) : 0;
   return summary;
+}
+
+double medianStandardError(const Summary& summary) {
+  return std::sqrt(std::numbers::pi / 2 / static_cast<double>(summary.n)) * summary.stddev;
 }
 
 }  // namespace glintmark

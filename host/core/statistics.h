@@ -14,4 +14,7 @@ struct Summary {
 /// with n - 1 (0 for one sample). Throws Error for an empty span.
 Summary summarize(std::span<const double> samples);
 
+/// Standard error of the median of `n` > 0 roughly normal samples: sqrt(pi / 2) stddev / sqrt(n).
+double medianStandardError(const Summary& summary);
+
 }  // namespace glintmark

@@ -25,7 +25,7 @@ enum class Programs {
   kFullScreen,   // the same over all pixels in the order of the screen
 };
 
-/// What a user can choose about shading; the scene decides everything else.
+/// What a user can choose about shading; the scene decides the rest. Defaults: docs/accuracy.md.
 struct ShadingOptions {
   int width_px = 1920;
   int height_px = 1080;

@@ -17,7 +17,8 @@ namespace {
 struct Setting {
   std::string case_name, name;  // "glints/ka=16", "ka=16"
   const Record* error = nullptr;
-  double time_ratio = 1, truth_stderr = 0;
+  double time_ratio = 1, time_noise = 0;  // the median's standard error, twice
+  double truth_stderr = 0;
   bool is_default = false;
 };
 
@@ -27,11 +28,14 @@ struct Effect {
   std::vector<CostAndError> points;  // of the settings, as far as they can be told apart
 };
 
-// `value` in steps of kAccuracyStep from `anchor`; less than a step off is no difference.
-double inSteps(double value, double anchor) {
+// `value` in steps of kAccuracyStep from `anchor`; less than a step off, or than `noise`, is no
+// difference.
+double inSteps(double value, double anchor, double noise = 0) {
   if (!(value > 0 && anchor > 0)) return value;
   const double steps = std::log(value / anchor) / kAccuracyStep;
-  return std::abs(steps) < 1 ? anchor : anchor * std::exp(std::round(steps) * kAccuracyStep);
+  return std::abs(steps) < 1 || std::abs(value - anchor) < noise
+             ? anchor
+             : anchor * std::exp(std::round(steps) * kAccuracyStep);
 }
 
 // Not a number if the measurement is not valid: such a setting is neither better nor worse.
@@ -46,7 +50,7 @@ std::vector<CostAndError> measuredPoints(std::span<const Setting> settings) {
   const Setting& anchor = standard == settings.end() ? settings.front() : *standard;
   std::vector<CostAndError> points;
   for (const Setting& setting : settings)
-    points.push_back({inSteps(setting.time_ratio, anchor.time_ratio),
+    points.push_back({inSteps(setting.time_ratio, anchor.time_ratio, setting.time_noise),
                       inSteps(shownError(setting), shownError(anchor))});
   return points;
 }
@@ -62,9 +66,10 @@ std::vector<Effect> effectsOf(std::span<const Record> records) {
     const std::string name = case_name.substr(0, slash);
     if (effects.empty() || effects.back().name != name) effects.push_back({name, {}, {}});
     const Record* truth = one.find("truth_stderr");
-    effects.back().settings.push_back(
-        {case_name, case_name.substr(slash + 1), error, ratio->value.median,
-         truth == nullptr ? 0 : truth->value.median, accuracyRole(*error) == kAccuracyDefault});
+    effects.back().settings.push_back({case_name, case_name.substr(slash + 1), error,
+                                       ratio->value.median, 2 * medianStandardError(ratio->value),
+                                       truth == nullptr ? 0 : truth->value.median,
+                                       accuracyRole(*error) == kAccuracyDefault});
   }
   for (Effect& effect : effects) effect.points = measuredPoints(effect.settings);
   return effects;

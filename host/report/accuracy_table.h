@@ -16,9 +16,10 @@ inline constexpr const char* kAccuracyRival = "rival";
 std::string accuracyRole(const Record& record);
 
 /// A record `pareto` (0 or 1) of every case that has `error` and `time_ratio`, each effect apart.
-/// A setting whose error is not valid is never optimal and stands in nobody's way. Differences
-/// that were not measured count for nothing: errors below the truth's own standard
-/// error are equal, and errors and times go in steps of kAccuracyStep from the default's.
+/// A setting whose error is not valid is never optimal and stands in nobody's way. Differences that
+/// were not measured count for nothing: errors below the truth's own standard error are equal,
+/// times within two standard errors of their median are the default's, and errors and times go in
+/// steps of kAccuracyStep from the default's.
 std::vector<Record> accuracyPareto(std::span<const Record> records);
 inline constexpr double kAccuracyStep = 0.05;
 

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <tuple>
 
 #include "host/report/text_table.h"
@@ -21,13 +20,19 @@ bool isTime(const Record& record) {
   return record.unit == "ms" || record.unit == "ns" || record.unit == "s";
 }
 
+// Ratios of times whose numerator is what this program wants to be fast.
+constexpr const char* kCostRatios[] = {"time_ratio",           "mixed_over_sum",
+                                       "mixed_over_sum_worst", "gmm_over_toksvig",
+                                       "tao21_over_original",  "multiscale_over_original"};
+
 Direction directionOf(const Record& record) {
   const std::string& metric = record.metric;
   const auto has = [&](const char* part) { return metric.find(part) != std::string::npos; };
   if (metric.ends_with("per_s") || metric == "fps" || metric.starts_with("speedup"))
     return Direction::kHigherIsBetter;
   if (isTime(record) || record.unit == "bytes" || record.unit == "instructions" || has("cost") ||
-      has("error") || has("bias") || metric == "rel_mse")
+      has("error") || has("bias") || metric == "rel_mse" ||
+      std::ranges::count(kCostRatios, metric) > 0)
     return Direction::kLowerIsBetter;
   return Direction::kNeither;
 }
@@ -41,14 +46,11 @@ Key keyOf(const Record& record) {
   return {record.table, record.case_, record.metric, std::move(config)};
 }
 
-// Two-sided p-value of "both medians are the same"; nothing if a spread is not known, both are 0, or
-// something is not finite.
+// Two-sided p-value of "both medians are the same"; nothing if a spread is not known, both are 0,
+// or something is not finite.
 std::optional<double> welchOnMedians(const Summary& a, const Summary& b) {
   if (a.n < 2 || b.n < 2) return std::nullopt;
-  const auto variance_of_median = [](const Summary& s) {
-    return std::numbers::pi / 2 * s.stddev * s.stddev / static_cast<double>(s.n);
-  };
-  const double va = variance_of_median(a), vb = variance_of_median(b);
+  const double va = std::pow(medianStandardError(a), 2), vb = std::pow(medianStandardError(b), 2);
   if (!(va + vb > 0)) return std::nullopt;
   const double t = std::abs(a.median - b.median) / std::sqrt(va + vb);
   // Welch-Satterthwaite.

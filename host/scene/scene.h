@@ -57,7 +57,7 @@ View orbitView(const View& base, const Orbit& orbit);
 /// A material's normals in finer detail than its mesh.
 struct NormalMapSource {
   std::shared_ptr<const NormalMap> map;
-  int lobes = 4;  // Gaussians per texel where mixtures stand for the map, 1 to 8
+  int lobes = 4;  // Gaussians per texel where mixtures stand for the map, 1 to 8; docs/accuracy.md
 };
 
 /// Diffuse lobe: Lambert's, or a rough surface that light leaves after several bounces, [PAT18]

@@ -8,6 +8,7 @@
 
 #include "host/verify/check_groups.h"
 #include "host/verify/pixel_harness.h"
+#include "host/verify/probes.h"
 #include "host/verify/random_pixels.h"
 #include "host/verify/tolerances.h"
 
@@ -129,6 +130,34 @@ Finding cellRange(int lanes) {
   return finding;
 }
 
+// The grids that footprints of any size and shape meet: log2 of the cell size, which the finer
+// level and the coarser grid's weight add up to, and the stretched box.
+Finding footprintLevels(int lanes) {
+  Finding finding(1);
+  const glm::dvec2 stretch(0.25, 1);
+  std::vector<reference::PixelFootprint> footprints;
+  for (const HandMadePixel& pixel : randomPixels(5000, {1e-6, 1, 200})) {
+    footprints.push_back(pixel.footprint);
+    for (glm::dvec2* d : {&footprints.back().duv_dx, &footprints.back().duv_dy})
+      *d = glm::dvec2(glm::vec2(*d));  // the planes hold floats
+  }
+  for (const int ka : {1, 16, 64}) {
+    const FootprintProbe probed = probeFootprints(footprints, stretch, kZk16, ka, lanes);
+    for (std::size_t i = 0; i < footprints.size(); ++i) {
+      const reference::PixelFootprint& f = footprints[i];
+      finding.add(std::abs(probed.fine_level[i] + probed.coarse_weight[i] -
+                           std::log2(reference::cellSizeZk16(f, ka))) /
+                  kFootprintLevel);
+      const glm::dvec2 box = stretch * glm::max(glm::abs(f.duv_dx), glm::abs(f.duv_dy));
+      finding.add(std::abs(probed.extent_u[i] / box.x - 1) / kFootprintExtent);
+      finding.add(std::abs(probed.extent_v[i] / box.y - 1) / kFootprintExtent);
+      finding.require(probed.coarse_weight[i] >= 0 && probed.coarse_weight[i] <= 1,
+                      "weights of grids are from 0 to 1");
+    }
+  }
+  return finding;
+}
+
 struct WidthCase {
   const char* name;
   GlintMethod method;
@@ -171,6 +200,7 @@ std::vector<Check> glintChecks() {
   for (const DrawCase& c : kDrawCases)
     checks.push_back({std::string("draws/") + c.name, "share of pixels with other draws",
                       [&c](int lanes) { return drawForDraw(c, lanes); }});
+  checks.push_back({"cells/footprint", "error in units of its bound", footprintLevels});
   checks.push_back({"cells/zk16_range", "pixels outside 8 to 64 cells", cellRange});
   for (const WidthCase& c : kWidthCases)
     checks.push_back({std::string("cells/same_bits_") + c.name,

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 
 #include "host/verify/pixel_harness.h"
 
@@ -71,6 +72,33 @@ RandomProbe probeRandom(const std::vector<std::uint32_t>& bits, int width) {
   launch("probe_glint.cl", "probeRandom", "", width,
          {upload(bits), out, static_cast<std::uint32_t>(padded)}, padded);
   return {download<float>(out, 0, bits.size()), download<float>(out, padded, bits.size())};
+}
+
+FootprintProbe probeFootprints(const std::vector<reference::PixelFootprint>& footprints,
+                               const glm::dvec2& stretch, GlintMethod method, int ka, int width) {
+  const std::size_t n = footprints.size(), padded = paddedCount(n);
+  std::vector<std::uint32_t> planes(8 * padded);
+  for (std::size_t i = 0; i < padded; ++i) {
+    const reference::PixelFootprint& f = footprints[std::min(i, n - 1)];
+    const auto bits = [](double d) { return std::bit_cast<std::uint32_t>(static_cast<float>(d)); };
+    const std::uint32_t words[] = {static_cast<std::uint32_t>(f.u.integer),
+                                   f.u.fraction,
+                                   static_cast<std::uint32_t>(f.v.integer),
+                                   f.v.fraction,
+                                   bits(f.duv_dx.x),
+                                   bits(f.duv_dx.y),
+                                   bits(f.duv_dy.x),
+                                   bits(f.duv_dy.y)};
+    for (std::size_t k = 0; k < 8; ++k) planes[k * padded + i] = words[k];
+  }
+  Buffer out = makeOutput(4 * padded);
+  launch("probe_glint.cl", "probeFootprint",
+         fmt::format("-D GLINT_METHOD={} -D KA={}", static_cast<int>(method), ka), width,
+         {upload(planes), out, static_cast<std::uint32_t>(padded), static_cast<float>(stretch.x),
+          static_cast<float>(stretch.y)},
+         padded);
+  return {download<float>(out, 0, n), download<float>(out, padded, n),
+          download<float>(out, 2 * padded, n), download<float>(out, 3 * padded, n)};
 }
 
 std::vector<float> probeBinomial(const std::vector<float>& u, const std::vector<float>& n,

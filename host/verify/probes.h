@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "host/ocl/kernel_config.h"
+#include "host/reference/footprint.h"
 
 namespace glintmark {
 
@@ -26,6 +27,13 @@ struct RandomProbe {
 };
 /// U(bits) and the byte Gaussian of bits.
 RandomProbe probeRandom(const std::vector<std::uint32_t>& bits, int width);
+
+struct FootprintProbe {
+  std::vector<float> fine_level, coarse_weight, extent_u, extent_v;
+};
+/// Which grids a footprint meets, and its box [uv] after stretching by `stretch`; K_a as given.
+FootprintProbe probeFootprints(const std::vector<reference::PixelFootprint>& footprints,
+                               const glm::dvec2& stretch, GlintMethod method, int ka, int width);
 
 /// Number of successes at P(more) = u among n trials of probability p.
 std::vector<float> probeBinomial(const std::vector<float>& u, const std::vector<float>& n,

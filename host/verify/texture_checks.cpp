@@ -17,27 +17,6 @@ constexpr int kMostProbes = 16;
 // Around whole ratios rounding decides the number of probes.
 constexpr double kRatioMargin = 1e-4;
 
-// Footprints of all sizes, shapes and directions.
-std::vector<TexturePixel> randomFootprints(std::size_t n, std::uint32_t seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<float> unit(0, 1);
-  std::vector<TexturePixel> pixels(n);
-  for (TexturePixel& p : pixels) {
-    p.u = static_cast<std::uint32_t>(random());
-    p.v = static_cast<std::uint32_t>(random());
-    const float length = std::exp2(-12 + 13 * unit(random)),
-                slimness = std::exp2(-6 * unit(random));
-    const float a = 6.2831853f * unit(random), b = 6.2831853f * unit(random);
-    // A rotation, a stretch, a rotation.
-    const float c = std::cos(a), s = std::sin(a), x = std::cos(b), y = std::sin(b);
-    p.dudx = length * (c * x - slimness * s * y);
-    p.dvdx = length * (s * x + slimness * c * y);
-    p.dudy = length * (-c * y - slimness * s * x);
-    p.dvdy = length * (-s * y + slimness * c * x);
-  }
-  return pixels;
-}
-
 reference::ProbeLine referenceLine(const TestTexture& texture, const TexturePixel& p) {
   return reference::footprintProbes(
       static_cast<int>(texture.header.width), static_cast<int>(texture.header.height),

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <random>
 
 #include "host/verify/pixel_harness.h"
@@ -39,6 +40,26 @@ TestTexture randomTexture(int width, int height, int texel_size, std::uint32_t s
     texture.levels.push_back(std::move(level));
   }
   return texture;
+}
+
+std::vector<TexturePixel> randomFootprints(std::size_t n, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> unit(0, 1);
+  std::vector<TexturePixel> pixels(n);
+  for (TexturePixel& p : pixels) {
+    p.u = static_cast<std::uint32_t>(random());
+    p.v = static_cast<std::uint32_t>(random());
+    const float length = std::exp2(-12 + 13 * unit(random)),
+                slimness = std::exp2(-6 * unit(random));
+    const float a = 6.2831853f * unit(random), b = 6.2831853f * unit(random);
+    // A rotation, a stretch, a rotation.
+    const float c = std::cos(a), s = std::sin(a), x = std::cos(b), y = std::sin(b);
+    p.dudx = length * (c * x - slimness * s * y);
+    p.dvdx = length * (s * x + slimness * c * y);
+    p.dudy = length * (-c * y - slimness * s * x);
+    p.dvdy = length * (-s * y + slimness * c * x);
+  }
+  return pixels;
 }
 
 std::vector<FetchedTexel> fetchPixels(const TestTexture& texture, int texel_size,

@@ -25,6 +25,9 @@ struct TexturePixel {
   float dudx = 0, dvdx = 0, dudy = 0, dvdy = 0;
 };
 
+/// Footprints of all sizes, shapes and directions.
+std::vector<TexturePixel> randomFootprints(std::size_t n, std::uint32_t seed);
+
 struct FetchedTexel {
   std::vector<float> values;
   int count = 0;

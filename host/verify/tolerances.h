@@ -22,6 +22,11 @@ inline constexpr double kFlippedPixelShare = 2e-3;
 /// zk16 has no such threshold and agrees in every pixel.
 inline constexpr double kThresholdCountShare = 5e-3;
 
+/// log2 of the cell size: the area is a difference of products in single precision, at least 1/64
+/// of either where it counts (below, the limit of K_a decides): 64 * 6e-8 / ln 2, and log2's error
+/// on levels down to -30. Box: products of two floats.
+inline constexpr double kFootprintLevel = 6e-6, kFootprintExtent = 2e-7;
+
 // Elementary functions, as kernels/wide_math.clh states them.
 inline constexpr double kExp2Error = 5e-7, kLog2Error = 2e-7, kReciprocalError = 2e-7;
 inline constexpr double kRsqrtError = 3e-7, kQuantileError = 1.2e-6;

@@ -51,6 +51,27 @@ TEST_F(Compare, OtherDevicesAreRefusedUnlessTold) {
   EXPECT_EQ(runGlintmark({"compare", before, after, "--across-devices"}).exit_code, 0);
 }
 
+TEST_F(Compare, RecordsOfANewerSchemaAreNamed) {
+  const std::string good = write("good.json", shadingMs(10)), newer = folder_ / "newer.json";
+  std::string text = readTextFile(good);
+  text.replace(text.find("glintmark.results/1"), 19, "glintmark.results/2");
+  writeFile(newer, text);
+  const ProcessResult result = runGlintmark({"compare", good, newer});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find(newer), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("'glintmark.results/2'"), std::string::npos) << result.err;
+  EXPECT_EQ(readTextFile(newer), text);
+}
+
+TEST_F(Compare, LosingValidityIsARegression) {
+  Results invalid = shadingMs(10);
+  invalid.records[0].valid = false;
+  const ProcessResult result =
+      runGlintmark({"compare", write("before.json", shadingMs(10)), write("after.json", invalid)});
+  EXPECT_EQ(result.exit_code, 1) << result.err;
+  EXPECT_NE(result.out.find("was valid and is not any more"), std::string::npos) << result.out;
+}
+
 TEST_F(Compare, BadInput) {
   const std::string good = write("good.json", shadingMs(10));
   EXPECT_EQ(runGlintmark({"compare", good, folder_ / "missing.json"}).exit_code, 2);

@@ -21,6 +21,7 @@ void addCase(std::vector<Record>& records, const std::string& name, const std::s
     record.table = "accuracy";
     record.config["role"] = role;
     record.note = "error: made up";
+    record.value.stddev = 0;
     records.push_back(record);
   }
 }
@@ -95,6 +96,19 @@ TEST(AccuracyTable, SaysWhatTheStepsCost) {
       << text;
   std::istringstream lines(text);
   for (std::string one; std::getline(lines, one);) EXPECT_LE(one.size(), 100u) << one;
+}
+
+TEST(AccuracyTable, ATimeWithinItsSpreadIsNoDifference) {
+  std::vector<Record> records;
+  addCase(records, "gmm/probes=16", kAccuracyDefault, 1, 0.01);
+  addCase(records, "gmm/probes=8", kAccuracyKnob, 0.9, 0.01);
+  Record& ratio = records[records.size() - 2];
+  ASSERT_EQ(ratio.metric, "time_ratio");
+  ratio.value.n = 9;
+  ratio.value.stddev = 0.05;  // of the median 0.021, twice 0.042
+  EXPECT_EQ(paretoOf(accuracyPareto(records), "gmm/probes=16"), 0);
+  ratio.value.stddev = 0.15;  // twice 0.125
+  EXPECT_EQ(paretoOf(accuracyPareto(records), "gmm/probes=16"), 1);
 }
 
 TEST(AccuracyTable, WhatIsNotValidIsNeverOptimalAndBeatsNothing) {

@@ -47,6 +47,9 @@ TEST(Comparison, KnowsWhichWayIsBetter) {
   EXPECT_EQ(changeOf("fps", "1/s", high, low), Change::kWorse);
   EXPECT_EQ(changeOf("speedup_vs_w1", "1", low, high), Change::kBetter);
   EXPECT_EQ(changeOf("normalised_cost", "1", low, high), Change::kWorse);
+  EXPECT_EQ(changeOf("gmm_over_toksvig", "1", low, high), Change::kWorse);
+  EXPECT_EQ(changeOf("time_ratio", "1", high, low), Change::kBetter);
+  EXPECT_EQ(changeOf("fournier_over_gmm", "1", low, high), Change::kDifferent);
   EXPECT_EQ(changeOf("cells_mean", "cells", low, high), Change::kDifferent);
 }
 

@@ -1,0 +1,51 @@
+// The binomial draw of both methods (kernels/binomial.clh): few and many trials, and all branches
+// mixed in every vector.
+#include <fmt/format.h>
+
+#include <random>
+
+#include "bench/device_bench.h"
+#include "host/verify/binomial_cases.h"
+#include "host/verify/probes.h"
+
+namespace glintmark::bench {
+namespace {
+
+// Draws whose trials and probability are one of `cases` each, at random.
+void draw(benchmark::State& state, GlintMethod method, const std::vector<BinomialCase>& cases,
+          int lanes) {
+  std::mt19937 random(1);
+  std::vector<float> u(kBinomialDraws), n(kBinomialDraws), p(kBinomialDraws);
+  for (std::size_t i = 0; i < kBinomialDraws; ++i) {
+    const BinomialCase& c = cases[random() % cases.size()];
+    u[i] = static_cast<float>((static_cast<double>(random()) + 0.5) * 0x1p-32);
+    n[i] = binomialTrials(c, random);
+    p[i] = static_cast<float>(c.p);
+  }
+  timeKernel(state, "probeBinomial", kBinomialDraws, "draw",
+             [&] { probeBinomial(u, n, p, method, lanes); });
+}
+
+void registerAll() {
+  for (const auto& [name, method] :
+       {std::pair("zk16", GlintMethod::kZk16), std::pair("exact", GlintMethod::kExact)}) {
+    const auto add = [&, method = method](const std::string& what,
+                                          const std::vector<BinomialCase>& cases) {
+      registerLanes(fmt::format("binomial/{}/{}", name, what),
+                    [method, cases](benchmark::State& state, int lanes) {
+                      draw(state, method, cases, lanes);
+                    });
+    };
+    add("n:7_p:0.3", {{7, 0.3}});
+    add("n:1e5_p:1e-4", {{1e5, 1e-4}});
+    add("n:1e7_p:0.3", {{1e7, 0.3}});
+    add("mixed", binomialGrid());
+  }
+}
+
+}  // namespace
+}  // namespace glintmark::bench
+
+int main(int argc, char** argv) {
+  return glintmark::bench::runDeviceBenchmarks(argc, argv, glintmark::bench::registerAll);
+}
