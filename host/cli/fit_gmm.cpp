@@ -250,7 +250,7 @@ void addFitGmmCommand(CLI::App& fit, CommandLine& line) {
   command->add_option("--iterations", options->options.max_iterations,
                       "Most EM steps of a texel in a pass (default: 4)");
   command->add_option("--passes", options->options.passes,
-                      "Over all levels; from the second on finer texels count too (default: 1)");
+                      "Over all levels; from the second on finer texels count too (default: 2)");
   command->add_option("--size", options->size_px,
                       "Texels a side of a generated map (default: 512)");
   command->add_option("--seed", options->seed, "Of a generated map (default: 1)");
@@ -273,9 +273,9 @@ void addFitGmmCommand(CLI::App& fit, CommandLine& line) {
   command->footer(
       "Examples:\n"
       "  glintmark fit gmm disk --lobes 4 -o disk.mixtures --picture disk.png\n"
-      "  glintmark fit gmm stone_normal.png --green down --passes 2\n"
+      "  glintmark fit gmm stone_normal.png --green down --passes 3\n"
       "  glintmark fit gmm height.exr --content heights --height-scale 0.1\n"
-      "  glintmark fit gmm --scene armour --set material.armour.normal_map.size_px=1024\n"
+      "  glintmark fit gmm --scene armour --set material.gold.normal_map.size_px=1024\n"
       "  glintmark fit gmm disk --check disk.mixtures");
   command->callback([options, &line] {
     line.action = [options, &line] { return runFitGmm(line.common, *options); };

@@ -40,7 +40,7 @@ enum class MixtureOrder {
 struct MixtureOptions {
   int lobes = 4;  // 1..kMaxLobes
   MixtureOrder order = MixtureOrder::kColours;
-  int passes = 1;           // over the chain, coarse to fine, >= 1; later ones see finer texels too
+  int passes = 2;           // over the chain, coarse to fine, >= 1; later ones see finer texels too
   int sweeps = 1;           // over each level within a pass, >= 1
   int max_iterations = 4;   // EM steps of a texel in a sweep, >= 1; the coarsest level has more
   float tolerance = 2e-3f;  // converged when no weight or mean moves further in a step, > 0
