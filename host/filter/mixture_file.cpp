@@ -16,11 +16,9 @@ constexpr std::string_view kMagic = "glintmark.mixtures/";
 }  // namespace
 
 std::string serializeMixtures(const NormalMixtures& mixtures) {
-  std::string file = fmt::format("{}{}\n", kMagic, kMixtureVersion);
-  const std::string bytes = mixtureBytes(mixtures);
-  const std::uint64_t hash = fnv1a(bytes);
-  file.reserve(file.size() + bytes.size() + sizeof hash);
-  file += bytes;
+  std::string file = mixtureBytes(mixtures);
+  const std::uint64_t hash = fnv1a(file);
+  file.insert(0, fmt::format("{}{}\n", kMagic, kMixtureVersion));
   file.append(reinterpret_cast<const char*>(&hash), sizeof hash);
   return file;
 }
