@@ -19,6 +19,7 @@ void requireWritablePicture(const std::string& file) {
 void addFitCommand(CLI::App& app, CommandLine& line) {
   CLI::App* command = app.add_subcommand("fit", "Computes the tables that shading needs");
   command->require_subcommand(1);
+  addFitGmmCommand(*command, line);
   addFitLtcCommand(*command, line);
   addFitMesoCommand(*command, line);
   addFitLobesCommand(*command, line);

@@ -4,6 +4,7 @@
 
 namespace glintmark {
 
+void addFitGmmCommand(CLI::App& fit, CommandLine& line);
 void addFitLtcCommand(CLI::App& fit, CommandLine& line);
 void addFitMesoCommand(CLI::App& fit, CommandLine& line);
 void addFitLobesCommand(CLI::App& fit, CommandLine& line);

@@ -91,25 +91,27 @@ std::optional<std::string> DiskCache::load(const std::string& name, const std::s
   const std::uint64_t hash = reader.takeNumber();
   const std::string_view binary = reader.take(size);
   if (!reader.atEnd() || binary.empty() || fnv1a(binary) != hash) return std::nullopt;
-  return std::string(binary);
+  // In place: entries may be gigabytes.
+  entry.erase(0, entry.size() - size);
+  return entry;
 }
 
 void DiskCache::store(const std::string& name, const std::string& key,
                       const std::string& binary) const {
   if (folder_.empty() || binary.empty()) return;
-  std::string entry(kMagic);
-  append(entry, key.size());
-  entry += key;
-  append(entry, binary.size());
-  append(entry, fnv1a(binary));
-  entry += binary;
+  std::string head(kMagic);
+  append(head, key.size());
+  head += key;
+  append(head, binary.size());
+  append(head, fnv1a(binary));
 
   std::error_code error;
   fs::create_directories(folder_, error);
   const fs::path path = entryPath(name);
   const fs::path temporary = path.string() + fmt::format(".{}.tmp", ::getpid());
   std::ofstream file(temporary, std::ios::binary);
-  file.write(entry.data(), static_cast<std::streamsize>(entry.size()));
+  file.write(head.data(), static_cast<std::streamsize>(head.size()));
+  file.write(binary.data(), static_cast<std::streamsize>(binary.size()));
   file.close();
   if (file) fs::rename(temporary, path, error);
   if (!file || error) fs::remove(temporary, error);

@@ -10,11 +10,8 @@
 namespace glintmark {
 namespace {
 
-// Counts up whenever the fit or the layout changes what comes out.
-constexpr std::uint32_t kVersion = 1;
-
 struct Header {
-  std::uint32_t version = kVersion;
+  std::uint32_t version = kMixtureVersion;
   std::int32_t width_px = 0, height_px = 0, lobes = 0;
   double fit_ms = 0;
 };
@@ -36,7 +33,7 @@ bool take(std::string_view& bytes, T* values, std::size_t count) {
 }
 
 bool isSane(const Header& header) {
-  return header.version == kVersion && header.width_px >= 1 && header.height_px >= 1 &&
+  return header.version == kMixtureVersion && header.width_px >= 1 && header.height_px >= 1 &&
          header.width_px <= kMaxNormalMapSize_px && header.height_px <= kMaxNormalMapSize_px &&
          header.lobes >= 1 && header.lobes <= kMaxLobes;
 }
@@ -47,11 +44,12 @@ std::string mixtureKey(const NormalMap& map, const MixtureOptions& options) {
   const std::string_view normals{reinterpret_cast<const char*>(map.normals.data()),
                                  map.normals.size() * sizeof(glm::vec3)};
   return fmt::format(
-      "mixtures {} of {}x{} normals {:016x}: {} lobes, {}, {} sweeps, {} iterations,"
+      "mixtures {} of {}x{} normals {:016x}: {} lobes, {}, {} passes, {} sweeps,"
+      " {} iterations,"
       " tolerance {}, prior {}",
-      kVersion, map.width_px, map.height_px, fnv1a(normals), options.lobes,
-      mixtureOrderName(options.order), options.sweeps, options.max_iterations, options.tolerance,
-      options.prior_weight);
+      kMixtureVersion, map.width_px, map.height_px, fnv1a(normals), options.lobes,
+      mixtureOrderName(options.order), options.passes, options.sweeps, options.max_iterations,
+      options.tolerance, options.prior_weight);
 }
 
 std::string mixtureBytes(const NormalMixtures& mixtures) {

@@ -1,5 +1,6 @@
 // Fitted mixtures on disk, by the content of the map and everything that decides the fit.
 #pragma once
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -8,6 +9,9 @@
 #include "host/filter/normal_mixture.h"
 
 namespace glintmark {
+
+/// Counts up whenever the fit or the layout changes what comes out.
+inline constexpr std::uint32_t kMixtureVersion = 2;
 
 /// What a fit depends on, as text: version of the fit, size and hash of the normals, options.
 /// The number of threads is not part of it.

@@ -188,7 +188,7 @@ void maximizeBlockTarget(MixtureBlock& block, int lobes) {
       hn::Store(weight, d, block.weight[i] + lane);
       hn::Store(hn::Add(mean_x, step_x), d, block.mean_x[i] + lane);
       hn::Store(hn::Add(mean_y, step_y), d, block.mean_y[i] + lane);
-      hn::Store(hn::Max(variance, hn::Set(d, kMinFitVariance)), d, block.variance[i] + lane);
+      hn::Store(hn::Max(variance, hn::Set(d, MF_MIN_VARIANCE)), d, block.variance[i] + lane);
     }
     hn::Store(moved, d, block.moved + lane);
   }

@@ -5,16 +5,13 @@
 #pragma once
 #include <cstddef>
 
+#include "host/filter/mixture_fit_types.h"
 #include "host/filter/normal_mixture.h"
 
 namespace glintmark {
 
 /// Texels that are fitted together, one per lane.
 inline constexpr int kBlockTexels = 16;
-
-/// A lobe's variance while it is fitted is at least this, so that densities stay finite: a
-/// deviation of 0.01 is below that of any surface the kernels shade. What is stored is not bounded.
-inline constexpr float kMinFitVariance = 1e-4f;
 
 /// A number per lobe and texel of a block.
 using BlockValues = float[kMaxLobes][kBlockTexels];

@@ -92,4 +92,28 @@ InterpolationError measureInterpolation(const NormalMap& map, const NormalMixtur
   return {std::sqrt(fitted / points), std::sqrt(interpolated / points)};
 }
 
+double measureMisalignment(const NormalMixtures& mixtures, int level) {
+  const int width = mixtures.moments.levelWidth(level);
+  const int height = mixtures.moments.levelHeight(level);
+  const auto addedSpread = [&](const float4* p, const float4* q) {
+    double sum = 0;
+    for (int i = 0; i < mixtures.lobes; ++i) {
+      const double a = p[i].x, b = q[i].x;
+      if (a <= 0 || b <= 0) continue;
+      const double dx = p[i].y / a - q[i].y / b, dy = p[i].z / a - q[i].z / b;
+      sum += 0.5 * a * b / (a + b) * (dx * dx + dy * dy);
+    }
+    return sum;
+  };
+  double sum = 0, pairs = 0;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const float4* own = mixtures.moments.at(level, x, y);
+      if (x + 1 < width) sum += addedSpread(own, mixtures.moments.at(level, x + 1, y)), ++pairs;
+      if (y + 1 < height) sum += addedSpread(own, mixtures.moments.at(level, x, y + 1)), ++pairs;
+    }
+  }
+  return pairs > 0 ? std::sqrt(sum / pairs) : 0;
+}
+
 }  // namespace glintmark

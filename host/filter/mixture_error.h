@@ -37,4 +37,10 @@ InterpolationError measureInterpolation(const NormalMap& map, const NormalMixtur
                                         int level, int points, double deviation,
                                         std::uint32_t seed);
 
+/// What a filter halfway between two texels of `level` adds to the spread of the lobes because
+/// lobes of one index differ: RMS over all pairs of side-by-side texels, within the map, of
+/// sqrt(sum over lobes of a b / (a + b) |mean_a - mean_b|^2 / 2), in units of (nx, ny). 0 where
+/// lobes of one index have one mean, and for a level of one texel.
+double measureMisalignment(const NormalMixtures& mixtures, int level);
+
 }  // namespace glintmark

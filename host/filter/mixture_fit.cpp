@@ -12,6 +12,7 @@
 #include "host/core/error.h"
 #include "host/core/stopwatch.h"
 #include "host/filter/mixture_em.h"
+#include "host/filter/mixture_fit_types.h"
 #include "host/filter/mixture_level.h"
 #include "host/filter/mixture_order.h"
 #include "host/filter/mixture_start.h"
@@ -20,34 +21,10 @@
 namespace glintmark {
 namespace {
 
-// Normals that a clustered start looks at.
-constexpr std::size_t kStartNormals = 4096;
-// A texel begins with its parent's lobes; their weights are mixed with equal ones by this share, so
-// that a lobe the parent hardly uses can come back.
-constexpr float kStartMix = 0.5f;
-// Fitted lobes below this weight are given up: their normals go to the others.
-constexpr float kLeastWeight = 1e-3f;
 // Normals that one task adds up in single precision before the sums continue in double.
 constexpr std::size_t kTaskNormals = 16384;
-// EM steps of the coarsest level, whose lobes all others begin with.
-constexpr int kRootIterations = 64;
 // Blocks per task.
 constexpr int kGrain = 8;
-
-void checkOptions(const MixtureOptions& options) {
-  const auto require = [](bool good, const char* sentence) {
-    if (!good) throw Error(sentence);
-  };
-  if (options.lobes < 1 || options.lobes > kMaxLobes) {
-    throw Error(
-        fmt::format("a mixture cannot have {} lobes; it has 1 to {}", options.lobes, kMaxLobes));
-  }
-  require(options.sweeps >= 1, "a fit of mixtures needs at least 1 sweep");
-  require(options.max_iterations >= 1, "a fit of mixtures needs at least 1 iteration");
-  require(options.tolerance > 0, "the tolerance of a fit of mixtures must be above 0");
-  require(options.prior_weight >= 0, "the prior weight of a fit of mixtures must be 0 or more");
-  require(options.threads >= 0, "the number of threads must be 0 (all cores) or more");
-}
 
 // Sums over the texels of a level.
 struct Tally {
@@ -90,7 +67,9 @@ class MixtureFit {
 
   NormalMixtures run() {
     const Stopwatch watch;
-    for (int level = level_count_ - 1; level >= 0; --level) fitLevel(level);
+    for (int pass = 0; pass < options_.passes; ++pass) {
+      for (int level = level_count_ - 1; level >= 0; --level) fitLevel(level, pass);
+    }
     for (int level = 0; level < level_count_; ++level) finishLevel(level);
     result_.fit_ms = watch.elapsedNs() * 1e-6;
     return std::move(result_);
@@ -100,23 +79,31 @@ class MixtureFit {
   // While fitting, a lobe's float4 is (weight, mean.x, mean.y, variance).
   float4* state(int level, glm::ivec2 texel) { return result_.moments.at(level, texel.x, texel.y); }
 
-  void fitLevel(int level) {
+  // What of the neighbourhood has been fitted before a texel is: nothing of its own level in the
+  // first sweep, finer levels only in a later pass.
+  struct Round {
+    int level = 0;
+    bool first_sweep = true, first_pass = true;
+  };
+
+  void fitLevel(int level, int pass) {
     const MixtureLevel geometry(finest_, level);
     Tally tally;
     const std::vector<TexelBatch> batches =
         texelBatches(options_.order, geometry.width(), geometry.height());
     for (int sweep = 0; sweep < options_.sweeps; ++sweep) {
       tally.converged = 0;
+      const Round round{level, pass == 0 && sweep == 0, pass == 0};
       for (const TexelBatch& batch : batches) {
         tally += overBlocks(geometry, batch, [&](const BlockTexels& texels) {
-          return fitBlock(geometry, level, sweep, texels);
+          return fitBlock(geometry, round, texels);
         });
       }
     }
     MixtureLevelReport& report = result_.levels[level];
     const auto texels = static_cast<double>(geometry.texelCount());
     report.width_px = geometry.width(), report.height_px = geometry.height();
-    report.mean_iterations = tally.iterations / texels;
+    report.mean_iterations += tally.iterations / texels;
     report.converged_share = tally.converged / texels;
     advance();
   }
@@ -135,7 +122,7 @@ class MixtureFit {
 
   void advance() {
     ++steps_done_;
-    if (progress_) progress_(steps_done_ / (2.0 * level_count_));
+    if (progress_) progress_(steps_done_ / ((options_.passes + 1.0) * level_count_));
   }
 
   // Calls `run` for every block of the batch, a texel a block where rows are long; adds up tallies
@@ -201,7 +188,7 @@ class MixtureFit {
     return scratch;
   }
 
-  Tally fitBlock(const MixtureLevel& geometry, int level, int sweep, const BlockTexels& texels) {
+  Tally fitBlock(const MixtureLevel& geometry, const Round& round, const BlockTexels& texels) {
     MixtureBlock block{};
     std::ranges::fill(block.normals, static_cast<float>(geometry.normalsPerTexel()));
     for (int lane = 0; lane < kBlockTexels; ++lane) {
@@ -210,15 +197,15 @@ class MixtureFit {
         for (int i = 0; i < options_.lobes; ++i) block.variance[i][lane] = 1;
         continue;
       }
-      start(geometry, level, sweep, texels.at(lane), lane, block);
-      addNeighbours(geometry, level, sweep, texels.at(lane), lane, block);
+      start(geometry, round, texels.at(lane), lane, block);
+      addNeighbours(geometry, round, texels.at(lane), lane, block);
     }
     const Scratch& scratch = gather(geometry, texels);
     const auto resting = [&](int lane) { return block.moved[lane] < options_.tolerance; };
     int iterations = 0, converged = 0;
-    const bool root = level == level_count_ - 1;
+    const bool root = round.first_sweep && round.level == level_count_ - 1;
     const int limit =
-        root ? std::max(kRootIterations, options_.max_iterations) : options_.max_iterations;
+        root ? std::max(MF_ROOT_ITERATIONS, options_.max_iterations) : options_.max_iterations;
     while (iterations < limit && converged < texels.count) {
       expect(geometry, texels, scratch, false, block);
       maximizeBlock(block, options_.lobes);
@@ -227,7 +214,7 @@ class MixtureFit {
       for (int lane = 0; lane < texels.count; ++lane) converged += resting(lane);
     }
     for (int lane = 0; lane < texels.count; ++lane) {
-      float4* lobes = state(level, texels.at(lane));
+      float4* lobes = state(round.level, texels.at(lane));
       for (int i = 0; i < options_.lobes; ++i) {
         lobes[i] = {block.weight[i][lane], block.mean_x[i][lane], block.mean_y[i][lane],
                     block.variance[i][lane]};
@@ -237,21 +224,23 @@ class MixtureFit {
   }
 
   // The mixture a texel begins with: its own from the last sweep, its parent's, or clusters.
-  void start(const MixtureLevel& geometry, int level, int sweep, glm::ivec2 texel, int lane,
+  void start(const MixtureLevel& geometry, const Round& round, glm::ivec2 texel, int lane,
              MixtureBlock& block) {
     const bool clustered =
-        options_.order == MixtureOrder::kIndependent || level == level_count_ - 1;
-    if (sweep == 0 && clustered) {
-      const auto clusters = clusterNormals(geometry.sample(texel, kStartNormals), options_.lobes);
+        options_.order == MixtureOrder::kIndependent || round.level == level_count_ - 1;
+    if (round.first_sweep && clustered) {
+      const auto clusters =
+          clusterNormals(geometry.sample(texel, MF_START_NORMALS), options_.lobes);
       for (int i = 0; i < options_.lobes; ++i) {
         const NormalLobe& c = clusters[i];
         setLobe(block, i, lane, {c.weight, c.mean.x, c.mean.y, c.variance}, 0);
       }
       return;
     }
-    const float4* from = sweep == 0 ? parent(geometry, level, texel) : state(level, texel);
+    const float4* from =
+        round.first_sweep ? parent(geometry, round.level, texel) : state(round.level, texel);
     for (int i = 0; i < options_.lobes; ++i) {
-      setLobe(block, i, lane, from[i], sweep == 0 ? kStartMix : 0);
+      setLobe(block, i, lane, from[i], round.first_sweep ? MF_START_MIX : 0);
     }
   }
 
@@ -259,7 +248,7 @@ class MixtureFit {
     block.weight[i][lane] = lobe.x + mix * (1.0f / static_cast<float>(options_.lobes) - lobe.x);
     block.mean_x[i][lane] = lobe.y;
     block.mean_y[i][lane] = lobe.z;
-    block.variance[i][lane] = std::max(lobe.w, kMinFitVariance);
+    block.variance[i][lane] = std::max(lobe.w, MF_MIN_VARIANCE);
   }
 
   const float4* parent(const MixtureLevel& geometry, int level, glm::ivec2 texel) {
@@ -269,8 +258,9 @@ class MixtureFit {
                              texel.y * static_cast<std::int64_t>(height) / geometry.height()});
   }
 
-  // Sums C a_k and C a_k mean_k over the parent and the visible neighbours of the same level.
-  void addNeighbours(const MixtureLevel& geometry, int level, int sweep, glm::ivec2 texel, int lane,
+  // Sums C a_k and C a_k mean_k over the parent, the visible neighbours of the same level, and,
+  // once they are fitted, the four finer texels.
+  void addNeighbours(const MixtureLevel& geometry, const Round& round, glm::ivec2 texel, int lane,
                      MixtureBlock& block) {
     if (options_.order == MixtureOrder::kIndependent) return;
     const auto add = [&](const float4* lobes) {
@@ -281,10 +271,20 @@ class MixtureFit {
         block.prior_y[i][lane] += weight * lobes[i].z;
       }
     };
+    const int level = round.level;
     if (level + 1 < level_count_) add(parent(geometry, level, texel));
-    const Neighbours neighbours =
-        visibleNeighbours(options_.order, sweep == 0, texel, geometry.width(), geometry.height());
+    const Neighbours neighbours = visibleNeighbours(options_.order, round.first_sweep, texel,
+                                                    geometry.width(), geometry.height());
     for (int k = 0; k < neighbours.count; ++k) add(state(level, neighbours.texels[k]));
+    if (round.first_pass || level == 0) return;
+    const int width = result_.moments.levelWidth(level - 1);
+    const int height = result_.moments.levelHeight(level - 1);
+    // A side of one texel stays one: the same finer texel does not count twice.
+    for (int y = 2 * texel.y; y < std::min(2 * texel.y + 2, height); ++y) {
+      for (int x = 2 * texel.x; x < std::min(2 * texel.x + 2, width); ++x) {
+        add(state(level - 1, {x, y}));
+      }
+    }
   }
 
   // One more E-step, and an M-step without prior: moments become those of the normals.
@@ -295,7 +295,7 @@ class MixtureFit {
       const float4* lobes = state(level, texels.at(lane));
       for (int i = 0; i < options_.lobes; ++i) {
         setLobe(block, i, lane, lobes[i], 0);
-        if (lobes[i].x < kLeastWeight) block.weight[i][lane] = 0;
+        if (lobes[i].x < MF_LEAST_WEIGHT) block.weight[i][lane] = 0;
       }
     }
     expect(geometry, texels, gather(geometry, texels), true, block);
@@ -333,9 +333,25 @@ class MixtureFit {
 
 }  // namespace
 
+void checkMixtureOptions(const MixtureOptions& options) {
+  const auto require = [](bool good, const char* sentence) {
+    if (!good) throw Error(sentence);
+  };
+  if (options.lobes < 1 || options.lobes > kMaxLobes) {
+    throw Error(
+        fmt::format("a mixture cannot have {} lobes; it has 1 to {}", options.lobes, kMaxLobes));
+  }
+  require(options.passes >= 1, "a fit of mixtures needs at least 1 pass");
+  require(options.sweeps >= 1, "a fit of mixtures needs at least 1 sweep");
+  require(options.max_iterations >= 1, "a fit of mixtures needs at least 1 iteration");
+  require(options.tolerance > 0, "the tolerance of a fit of mixtures must be above 0");
+  require(options.prior_weight >= 0, "the prior weight of a fit of mixtures must be 0 or more");
+  require(options.threads >= 0, "the number of threads must be 0 (all cores) or more");
+}
+
 NormalMixtures fitNormalMixtures(const NormalMap& map, const MixtureOptions& options,
                                  const std::function<void(double)>& progress) {
-  checkOptions(options);
+  checkMixtureOptions(options);
   checkNormalMap(map);
   tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic : options.threads);
   return arena.execute([&] { return MixtureFit(map, options, progress).run(); });

@@ -39,17 +39,21 @@ enum class MixtureOrder {
 
 struct MixtureOptions {
   int lobes = 4;  // 1..kMaxLobes
-  MixtureOrder order = MixtureOrder::kScanline;
-  int sweeps = 1;           // over each level, coarse to fine, >= 1
+  MixtureOrder order = MixtureOrder::kColours;
+  int passes = 2;           // over the chain, coarse to fine, >= 1; later ones see finer texels too
+  int sweeps = 1;           // over each level within a pass, >= 1
   int max_iterations = 4;   // EM steps of a texel in a sweep, >= 1; the coarsest level has more
   float tolerance = 2e-3f;  // converged when no weight or mean moves further in a step, > 0
   float prior_weight = 1;   // the paper's C, >= 0
   int threads = 0;          // 0: all cores
 };
 
+/// Throws Error for an option out of the ranges above.
+void checkMixtureOptions(const MixtureOptions& options);
+
 struct MixtureLevelReport {
   int width_px = 0, height_px = 0;
-  double mean_iterations = 0;  // per texel, over all sweeps
+  double mean_iterations = 0;  // per texel, over all sweeps and passes
   double converged_share = 0;  // of texels in the last sweep
   double log_likelihood = 0;   // mean over the finest normals, of density per unit area
 };

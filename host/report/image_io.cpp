@@ -99,7 +99,10 @@ void writePng(const Image& image, const std::filesystem::path& path) {
 }
 
 Image readImage(const std::filesystem::path& path) {
-  auto input = OIIO::ImageInput::open(path.string());
+  // Colours that alpha has not multiplied stay as they are: normals and heights keep their values.
+  OIIO::ImageSpec hints;
+  hints.attribute("oiio:UnassociatedAlpha", 1);
+  auto input = OIIO::ImageInput::open(path.string(), &hints);
   if (!input) {
     throw Error(fmt::format("cannot read image {}: {}", path.string(), OIIO::geterror()));
   }

@@ -1,0 +1,285 @@
+// glintmark fit gmm: mip chains of Gaussian mixtures of normals, and how good they are.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include "host/cli/fit_commands.h"
+#include "host/cli/interrupt.h"
+#include "host/cli/mixture_picture.h"
+#include "host/core/error.h"
+#include "host/core/progress.h"
+#include "host/filter/mixture_cache.h"
+#include "host/filter/mixture_error.h"
+#include "host/filter/mixture_file.h"
+#include "host/filter/normal_map_generators.h"
+#include "host/fit/device_mixture_fit.h"
+#include "host/report/atomic_file.h"
+#include "host/report/image_io.h"
+#include "host/report/picture_strip.h"
+#include "host/report/text_table.h"
+
+namespace glintmark {
+namespace {
+
+// Finest levels whose error is measured, at how many places, and the deviation that both sides are
+// widened by: that of a lobe of roughness 0.1. The closed form takes the square of the normals'
+// number.
+constexpr int kErrorLevels = 4;
+constexpr int kErrorPoints = 200;
+constexpr double kErrorDeviation = 0.07;
+constexpr int kPictureWidth_px = 1024;
+constexpr int kPictureHeight_px = 256;  // of one strip, at most
+constexpr int kMostIterations = 1000;
+constexpr int kMostPasses = 16;
+constexpr int kMostSeed = 1 << 30;
+
+struct FitGmmCommand {
+  std::string source, scene, material, output, picture, check,
+      order = mixtureOrderName(MixtureOptions{}.order);
+  std::string content = "auto", green = "up", on = "host";
+  int size_px = NormalMapRecipe{}.size_px, seed = 1;
+  double height_scale = 0;  // 0: the source's own default
+  bool has_height_scale = false, has_lobes = false, refit = false;
+  MixtureOptions options;
+};
+
+// The map and, once fitted or read, its mixtures.
+struct Fitted {
+  NormalMap map;
+  NormalMixtures mixtures;
+  bool measured_fit = true;  // in this run
+};
+
+void requireRange(const char* option, int value, int low, int high) {
+  if (value < low || value > high) {
+    throw Error(fmt::format("{} {} is not possible; it is {} to {}", option, value, low, high));
+  }
+}
+
+int choice(const char* option, const std::string& text, const std::vector<std::string>& names) {
+  const auto found = std::ranges::find(names, text);
+  if (found == names.end()) {
+    throw Error(
+        fmt::format("{} '{}' is unknown; it is one of {}", option, text, fmt::join(names, ", ")));
+  }
+  return static_cast<int>(found - names.begin());
+}
+
+void check(FitGmmCommand& command) {
+  requireRange("--lobes", command.options.lobes, 1, kMaxLobes);
+  requireRange("--iterations", command.options.max_iterations, 1, kMostIterations);
+  requireRange("--passes", command.options.passes, 1, kMostPasses);
+  requireRange("--size", command.size_px, 1, kMaxNormalMapSize_px);
+  choice("--on", command.on, {"host", "device"});
+  requireRange("--seed", command.seed, 0, kMostSeed);
+  command.options.order = parseMixtureOrder(command.order);
+  if (!command.output.empty()) requireWritableFile(command.output);
+  if (!command.picture.empty()) requireWritablePicture(command.picture);
+}
+
+// The map of the scene's chosen material, or of the first that has one; the lobes too, unless the
+// command line says how many.
+NormalMap sceneMap(const CommonOptions& common, FitGmmCommand& command) {
+  const Scene scene = openScene(common, command.scene);
+  std::vector<std::string> mapped;
+  for (const Material& material : scene.materials) {
+    if (!material.normal_map) continue;
+    mapped.push_back(material.name);
+    if (!command.material.empty() && command.material != material.name) continue;
+    if (!command.has_lobes) command.options.lobes = material.normal_map->lobes;
+    return *material.normal_map->map;
+  }
+  if (mapped.empty()) throw Error(fmt::format("scene '{}' has no normal map", scene.name));
+  throw Error(fmt::format("scene '{}' has no material '{}' with a normal map; it has {}",
+                          scene.name, command.material, fmt::join(mapped, ", ")));
+}
+
+NormalMap loadMap(const CommonOptions& common, FitGmmCommand& command) {
+  if (command.source.empty() == command.scene.empty()) {
+    throw Error("fit gmm needs a map or a --scene, one of the two");
+  }
+  if (!command.scene.empty()) return sceneMap(common, command);
+  NormalMapDecoding decoding;
+  decoding.content =
+      static_cast<MapContent>(choice("--content", command.content, {"auto", "normals", "heights"}));
+  decoding.green = static_cast<GreenAxis>(choice("--green", command.green, {"up", "down"}));
+  const std::vector<std::string> known = normalMapGenerators();
+  if (std::ranges::find(known, command.source) != known.end()) {
+    NormalMapRecipe recipe{.kind = command.source,
+                           .size_px = command.size_px,
+                           .seed = static_cast<std::uint32_t>(command.seed)};
+    if (command.has_height_scale) recipe.height_scale = command.height_scale;
+    return generateNormalMap(recipe);
+  }
+  if (!std::filesystem::is_regular_file(command.source)) {
+    throw Error(fmt::format("'{}' is neither an image file nor a generated map; generators are {}",
+                            command.source, fmt::join(known, ", ")));
+  }
+  if (command.has_height_scale) decoding.height_scale = command.height_scale;
+  return readNormalMap(command.source, readImage, decoding);
+}
+
+Fitted fitMap(const CommonOptions& common, const FitGmmCommand& command, NormalMap map) {
+  const InterruptGuard guard;
+  Progress progress(common.quiet);
+  const auto show = [&](double share) {
+    if (InterruptGuard::interrupted()) throw Interrupted("interrupted; nothing was written");
+    progress.show(static_cast<int>(share * 100), 100, "% of the fit");
+  };
+  if (command.on == "device") {
+    Device device = openDevice(common);
+    ProgramCache cache(device);
+    NormalMixtures mixtures =
+        fitMixturesOnDevice(device, cache, chosenLanes(common, device), map, command.options, show);
+    return {std::move(map), std::move(mixtures), true};
+  }
+  if (command.refit) {
+    NormalMixtures mixtures = fitNormalMixtures(map, command.options, show);
+    return {std::move(map), std::move(mixtures), true};
+  }
+  CachedMixtures cached =
+      cachedNormalMixtures(map, command.options, DiskCache::fromEnvironment(), show);
+  return {std::move(map), std::move(cached.mixtures), !cached.from_cache};
+}
+
+Fitted readFitted(const FitGmmCommand& command, NormalMap map) {
+  NormalMixtures mixtures = parseMixtures(readTextFile(command.check), command.check);
+  const MipTexture& layout = mixtures.moments.layout;
+  if (static_cast<int>(layout.width) != map.width_px ||
+      static_cast<int>(layout.height) != map.height_px) {
+    throw Error(fmt::format("'{}' holds mixtures of a {}x{} map, but '{}' has {}x{} texels",
+                            command.check, layout.width, layout.height, map.name, map.width_px,
+                            map.height_px));
+  }
+  return {std::move(map), std::move(mixtures), false};
+}
+
+void printLevels(const Fitted& fitted) {
+  TextTable table({"level", "texels", "EM steps", "converged", "log-likelihood", "misalignment",
+                   "error at texels", "between"});
+  const auto level_count = static_cast<int>(fitted.mixtures.levels.size());
+  for (int level = 0; level < level_count; ++level) {
+    const MixtureLevelReport& report = fitted.mixtures.levels[level];
+    std::string at = "-", between = "-";
+    if (level < kErrorLevels) {
+      const InterpolationError error = measureInterpolation(fitted.map, fitted.mixtures, level,
+                                                            kErrorPoints, kErrorDeviation, 1);
+      at = fmt::format("{:.4f}", error.fitted), between = fmt::format("{:.4f}", error.interpolated);
+    }
+    table.addRow({std::to_string(level), fmt::format("{}x{}", report.width_px, report.height_px),
+                  fmt::format("{:.1f}", report.mean_iterations),
+                  fmt::format("{:.0f} %", 100 * report.converged_share),
+                  fmt::format("{:.3f}", report.log_likelihood),
+                  fmt::format("{:.4f}", measureMisalignment(fitted.mixtures, level)), at, between});
+  }
+  fmt::print("{}", table.toString());
+}
+
+void printReport(const FitGmmCommand& command, const Fitted& fitted) {
+  const NormalMixtures& mixtures = fitted.mixtures;
+  fmt::print(
+      "{} {}x{}: {} lobes a texel, {:.1f} MB, {}\n", fitted.map.name, fitted.map.width_px,
+      fitted.map.height_px, mixtures.lobes,
+      static_cast<double>(mixtures.moments.texels.size()) * sizeof(float4) * 1e-6,
+      command.check.empty()
+          ? fmt::format("{} in {:.2f} s", fitted.measured_fit ? "fitted" : "from the cache, fitted",
+                        mixtures.fit_ms * 1e-3)
+          : fmt::format("read from {}", command.check));
+  printLevels(fitted);
+  double limited = 0, texels = 0;
+  for (const MixtureLevelReport& report : mixtures.levels) {
+    const double count = static_cast<double>(report.width_px) * report.height_px;
+    limited += count * (1 - report.converged_share), texels += count;
+  }
+  fmt::print("{:.1f} % of the texels stopped at the limit of EM steps\n", 100 * limited / texels);
+}
+
+// The mixtures and, below them, what the same texels get without neighbours.
+void writePicture(const FitGmmCommand& command, const Fitted& fitted) {
+  const int level = pictureLevel(fitted.mixtures, kPictureWidth_px);
+  const int side =
+      std::max(fitted.mixtures.moments.levelWidth(level) * fitted.mixtures.lobes,
+               fitted.mixtures.moments.levelHeight(level) * kPictureWidth_px / kPictureHeight_px);
+  const int texel_px = std::max(1, kPictureWidth_px / side);
+  MixtureOptions alone = command.options;
+  alone.lobes = fitted.mixtures.lobes;
+  alone.order = MixtureOrder::kIndependent;
+  const NormalMixtures unaligned =
+      cachedNormalMixtures(fitted.map, alone, DiskCache::fromEnvironment()).mixtures;
+  writePng(pictureColumn({mixturePicture(fitted.mixtures, level, texel_px, command.order),
+                          mixturePicture(unaligned, level, texel_px, "independent")}),
+           command.picture);
+}
+
+int runFitGmm(const CommonOptions& common, FitGmmCommand& command) {
+  check(command);
+  command.options.threads = common.threads;
+  NormalMap map = loadMap(common, command);
+  const Fitted fitted = command.check.empty() ? fitMap(common, command, std::move(map))
+                                              : readFitted(command, std::move(map));
+  if (!command.output.empty()) writeFile(command.output, serializeMixtures(fitted.mixtures));
+  if (!command.picture.empty()) writePicture(command, fitted);
+  printReport(command, fitted);
+  return kExitDone;
+}
+
+}  // namespace
+
+void addFitGmmCommand(CLI::App& fit, CommandLine& line) {
+  auto options = std::make_shared<FitGmmCommand>();
+  CLI::App* command = fit.add_subcommand(
+      "gmm", "Mip chains of Gaussian mixtures of a map's normals, and their error");
+  command
+      ->add_option(
+          "map", options->source,
+          fmt::format("Image of normals or heights, or {}", fmt::join(normalMapGenerators(), ", ")))
+      ->type_name("MAP");
+  command->add_option("--scene", options->scene, "A scene's map instead, with --set as elsewhere");
+  command->add_option("--material", options->material,
+                      "Which of the scene's materials (default: the first with a map)");
+  command
+      ->add_option("--lobes", options->options.lobes,
+                   "Gaussians a texel, 1 to 8 (default: the scene's, or 4)")
+      ->each([options](const std::string&) { options->has_lobes = true; });
+  command->add_option("--order", options->order,
+                      "colours, scanline (as published), independent (default: colours)");
+  command->add_option("--iterations", options->options.max_iterations,
+                      "Most EM steps of a texel in a pass (default: 4)");
+  command->add_option("--passes", options->options.passes,
+                      "Over all levels; from the second on finer texels count too (default: 2)");
+  command->add_option("--size", options->size_px,
+                      "Texels a side of a generated map (default: 512)");
+  command->add_option("--seed", options->seed, "Of a generated map (default: 1)");
+  command->add_option("--content", options->content, "auto, normals, heights (default: auto)");
+  command->add_option("--green", options->green,
+                      "up or down: where green points in an image of normals (default: up)");
+  command
+      ->add_option("--height-scale", options->height_scale,
+                   "Height of the value 1 in sides of the map (default: 1 generated, 0.05 images)")
+      ->each([options](const std::string&) { options->has_height_scale = true; });
+  command->add_option("-o,--output", options->output, "The mixtures")->type_name("FILE");
+  command->add_option("--check", options->check, "Measure this file's mixtures; fit nothing")
+      ->type_name("FILE");
+  command
+      ->add_option("--picture", options->picture, "Lobes of a level, with and without neighbours")
+      ->type_name("FILE.png");
+  command->add_option("--on", options->on,
+                      "host or device, which fits anew each time (default: host)");
+  command->add_flag("--refit", options->refit, "Do not look into the cache");
+  command->footer(
+      "Examples:\n"
+      "  glintmark fit gmm disk --lobes 4 -o disk.mixtures --picture disk.png\n"
+      "  glintmark fit gmm stone_normal.png --green down --passes 3\n"
+      "  glintmark fit gmm height.exr --content heights --height-scale 0.1\n"
+      "  glintmark fit gmm --scene armour --set material.gold.normal_map.size_px=1024\n"
+      "  glintmark fit gmm disk --check disk.mixtures");
+  command->callback([options, &line] {
+    line.action = [options, &line] { return runFitGmm(line.common, *options); };
+  });
+}
+
+}  // namespace glintmark
