@@ -18,6 +18,8 @@ constexpr const char* kTable = "tan05";
 constexpr const char* kSummaryScene = "disk";
 constexpr const char* kDistanceView = "near";
 constexpr int kDistanceSize_px = 250;
+// Of the truth at a distance, where errors of methods lie close together.
+constexpr int kDistanceTruthSpp = 256;
 
 std::vector<std::string> knownScenes() {
   return {"disk", "armour", "desert"};
@@ -96,6 +98,7 @@ class ViewMeasurer {
       Tan05Settings settings = tan05Settings(run_);
       // Half the paper's size and half the distance: the same texels per pixel.
       settings.shading.width_px = settings.shading.height_px = kDistanceSize_px;
+      settings.truth_spp = kDistanceTruthSpp;
       const View moved = atDistance(loaded.scene.view(kDistanceView), 0.5 * factor);
       view_ = measureTan05Distance(run_, loaded, moved, wanted.view, settings);
       measured_ = key;
