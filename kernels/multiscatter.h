@@ -5,8 +5,8 @@
 
 #define MS_DEGREES 8  // coefficients per polynomial
 
-// What a rough mirror reflects by one bounce falls and rises again within cosines of the size of its
-// roughness. It is a polynomial of t = mu (1 + s) / (mu + s) with s = MS_WARP alpha.
+// What a rough mirror reflects by one bounce falls and rises again within cosines of the size of
+// its roughness. It is a polynomial of t = mu (1 + s) / (mu + s) with s = MS_WARP alpha.
 #define MS_WARP 2.0f
 
 typedef struct MultiscatterMaterial {

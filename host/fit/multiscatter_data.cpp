@@ -51,7 +51,7 @@ std::string toJson(const MultiscatterData& data) {
                                  {"exponent", data.refit.exponent},
                                  {"flattening", data.refit.flattening},
                                  {"third_order", data.refit.third_order},
-        {"third_order_knee", data.refit.third_order_knee}}},
+                                 {"third_order_knee", data.refit.third_order_knee}}},
                                {"eon_roughness", {{"top", data.eon.top}, {"knee", data.eon.knee}}},
                                {"mirror",
                                 {{"alpha", data.mirror.alphas},

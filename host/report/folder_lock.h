@@ -20,7 +20,8 @@ class FolderLock {
   int descriptor_ = -1;
 };
 
-/// Removes the temporary files of AtomicFile that processes which are no more have left in a folder.
+/// Removes the temporary files of AtomicFile that processes which are no more have left in a
+/// folder.
 void removeAbandonedFiles(const std::filesystem::path& folder);
 
 }  // namespace glintmark

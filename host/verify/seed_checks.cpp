@@ -1,29 +1,16 @@
 // Seeds and random numbers as kernels/README.md, "The draws", states them.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
 #include <vector>
 
 #include "host/reference/seeds.h"
 #include "host/verify/check_groups.h"
 #include "host/verify/probes.h"
+#include "host/verify/seed_cases.h"
 
 namespace glintmark {
 namespace {
-
-std::vector<std::int32_t> interestingIndices() {
-  constexpr std::int32_t kMin = std::numeric_limits<std::int32_t>::min();
-  constexpr std::int32_t kMax = std::numeric_limits<std::int32_t>::max();
-  std::vector<std::int32_t> indices = {0, kMin, kMin + 1, kMax, kMax - 1, kMin / 2, 1 << 30};
-  for (std::int32_t i = -2048; i <= 2048; ++i) indices.push_back(i);
-  std::mt19937 random(7);
-  for (int i = 0; i < 4096; ++i) {
-    const auto bits = random();
-    indices.push_back(static_cast<std::int32_t>(bits << (random() % 32)));
-  }
-  return indices;
-}
 
 // Steps 3 to 6, in integers.
 Finding seeds(int lanes) {

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include "host/filter/mip_chain.h"
+#include "host/filter/normal_map_generators.h"
 #include "host/filter/normal_mixture.h"
 
 namespace glintmark {
@@ -26,6 +28,18 @@ inline NormalMap randomMap(int width, int height) {
   std::mt19937 random(3);
   const auto uniform = [&] { return static_cast<float>(random() * 0x1p-31 - 1); };
   return mapOf(width, height, [&](int, int) { return glm::vec3(uniform(), uniform(), 0.5f); });
+}
+
+// No variance, equal normals, opposite slopes near the horizon, steep creases, a strip.
+inline std::vector<NormalMap> hardMaps() {
+  const auto steep = [](int x, int y) {
+    return glm::vec3((x & 1) ? 1 : -1, (y & 1) ? 0.3f : -0.3f, 1e-3f);
+  };
+  return {generateNormalMap({.kind = "flat", .size_px = 32}),
+          mapOf(32, 32, [](int, int) { return glm::vec3(0.6f, -0.3f, 0.5f); }),
+          mapOf(32, 32, steep),
+          generateNormalMap({.kind = "armour", .size_px = 64, .height_scale = 100}),
+          mapOf(3, 200, steep)};
 }
 
 // Chain of the true moments (1, x, y, x^2 + y^2).

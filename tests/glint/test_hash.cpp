@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <random>
 #include <vector>
 
 #include "host/reference/seeds.h"
+#include "host/verify/seed_cases.h"
 
 namespace glintmark {
 namespace {
@@ -19,17 +19,6 @@ constexpr double kSignificance = 1e-5;
 
 constexpr std::int32_t kMin = std::numeric_limits<std::int32_t>::min();
 constexpr std::int32_t kMax = std::numeric_limits<std::int32_t>::max();
-
-std::vector<std::int32_t> interestingIndices() {
-  std::vector<std::int32_t> indices = {0, kMin, kMin + 1, kMax, kMax - 1, kMin / 2, 1 << 30};
-  for (std::int32_t i = -2048; i <= 2048; ++i) indices.push_back(i);
-  std::mt19937 random(7);
-  for (int i = 0; i < 4096; ++i) {
-    const auto bits = random();
-    indices.push_back(static_cast<std::int32_t>(bits << (random() % 32)));
-  }
-  return indices;
-}
 
 TEST(Seeds, CoherentIndexIsOddAndInvariantUnderDoubling) {
   for (const std::int32_t i : interestingIndices()) {

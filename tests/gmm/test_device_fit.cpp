@@ -119,15 +119,7 @@ TEST(DeviceMixtureFit, MomentsAreThoseOfTheNormalsAtEveryLevel) {
 }
 
 TEST(DeviceMixtureFit, HardMapsStayFinite) {
-  const auto steep = [](int x, int y) {
-    return glm::vec3((x & 1) ? 1 : -1, (y & 1) ? 0.3f : -0.3f, 1e-3f);
-  };
-  const NormalMap maps[] = {
-      generateNormalMap({.kind = "flat", .size_px = 32}),
-      mapOf(32, 32, [](int, int) { return glm::vec3(0.6f, -0.3f, 0.5f); }), mapOf(32, 32, steep),
-      generateNormalMap({.kind = "armour", .size_px = 64, .height_scale = 100}),
-      mapOf(3, 64, steep)};
-  for (const NormalMap& map : maps) {
+  for (const NormalMap& map : hardMaps()) {
     expectExactMoments(map, fitAt(16, map));
     expectExactMoments(map, fitAt(1, map, {.lobes = 8, .sweeps = 2}));
   }
