@@ -1,12 +1,12 @@
-// The binomial draw of both methods (kernels/binomial.clh): few and many trials, and all branches
-// mixed in every vector.
+// The binomial draw of both methods (kernels/glint/binomial.clh): few and many trials, and all
+// branches mixed in every vector.
 #include <fmt/format.h>
 
 #include <random>
 
 #include "bench/device_bench.h"
-#include "host/verify/binomial_cases.h"
-#include "host/verify/probes.h"
+#include "host/harness/binomial_cases.h"
+#include "host/harness/probes.h"
 
 namespace glintmark::bench {
 namespace {

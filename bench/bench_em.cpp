@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "bench/device_bench.h"
-#include "host/filter/mixture_em.h"
 #include "host/filter/normal_map_generators.h"
+#include "host/mixture/mixture_em.h"
 
 namespace glintmark::bench {
 namespace {

@@ -1,10 +1,10 @@
-// Footprints of pixels in the grids of cells (kernels/footprint.clh): both methods, stretched or
-// not.
+// Footprints of pixels in the grids of cells (kernels/glint/footprint.clh): both methods, stretched
+// or not.
 #include <fmt/format.h>
 
 #include "bench/device_bench.h"
-#include "host/verify/probes.h"
-#include "host/verify/random_pixels.h"
+#include "host/harness/probes.h"
+#include "host/harness/random_pixels.h"
 
 namespace glintmark::bench {
 namespace {

@@ -5,8 +5,8 @@
 #include <numeric>
 
 #include "bench/device_bench.h"
-#include "host/verify/pixel_harness.h"
-#include "host/verify/random_pixels.h"
+#include "host/harness/pixel_harness.h"
+#include "host/harness/random_pixels.h"
 
 namespace glintmark::bench {
 namespace {

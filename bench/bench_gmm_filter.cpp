@@ -1,9 +1,9 @@
-// Filtering mixtures of normals along footprints (kernels/texture_sum.clh): lobes of a texel, and
-// most probes along the footprint.
+// Filtering mixtures of normals along footprints (kernels/normals/texture_sum.clh): lobes of a
+// texel, and most probes along the footprint.
 #include <fmt/format.h>
 
 #include "bench/device_bench.h"
-#include "host/verify/texture_harness.h"
+#include "host/harness/texture_harness.h"
 
 namespace glintmark::bench {
 namespace {

@@ -1,8 +1,8 @@
-// Seeds of cells and their random numbers (kernels/hash.clh), over arrays in the caches.
+// Seeds of cells and their random numbers (kernels/glint/hash.clh), over arrays in the caches.
 #include <random>
 
 #include "bench/device_bench.h"
-#include "host/verify/probes.h"
+#include "host/harness/probes.h"
 
 namespace glintmark::bench {
 namespace {

@@ -1,10 +1,10 @@
-// Rays at random rough surfaces (kernels/heightfield.cl), all orders: three kinds of material,
-// smooth to rough, steep to grazing.
+// Rays at random rough surfaces (kernels/scatter/heightfield.cl), all orders: three kinds of
+// material, smooth to rough, steep to grazing.
 #include <fmt/format.h>
 
 #include "bench/device_bench.h"
+#include "host/harness/pixel_harness.h"
 #include "host/simulate/simulation.h"
-#include "host/verify/pixel_harness.h"
 
 namespace glintmark::bench {
 namespace {

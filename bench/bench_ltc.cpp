@@ -1,4 +1,4 @@
-// The integral of a transformed cosine over one polygon light (kernels/polygon.clh, ltc.clh):
+// The integral of a transformed cosine over one polygon light (kernels/area/polygon.clh, ltc.clh):
 // corners of the light, clipped to the horizon or not, with and without the diffuse term.
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 
 #include "bench/device_bench.h"
-#include "host/verify/area_light_harness.h"
+#include "host/harness/area_light_harness.h"
 
 namespace glintmark::bench {
 namespace {

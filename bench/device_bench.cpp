@@ -6,11 +6,11 @@
 #include <cstring>
 #include <span>
 
-#include "host/cli/command_line.h"
 #include "host/core/error.h"
 #include "host/core/trace.h"
-#include "host/report/run_info.h"
-#include "host/verify/pixel_harness.h"
+#include "host/experiment/session.h"
+#include "host/harness/pixel_harness.h"
+#include "host/report/record/run_info.h"
 
 namespace glintmark::bench {
 namespace {
@@ -53,15 +53,15 @@ void addContext(const RunInfo& run) {
 
 int runAll(int argc, char** argv, void (*registerAll)(), bool on_device) {
   try {
-    CommandLine line;
-    line.words.assign(argv, argv + argc);
-    line.common = takeCommonOptions(argc, argv);
+    Session session;
+    session.words.assign(argv, argv + argc);
+    session.common = takeCommonOptions(argc, argv);
     if (on_device) {
-      const Device& device = KernelBench::open(openDevice(line.common)).device;
-      chosen_lanes = chosenLanes(line.common, device);
-      addContext(describeRun(line, device));
+      const Device& device = KernelBench::open(openDevice(session.common)).device;
+      chosen_lanes = chosenLanes(session.common, device);
+      addContext(describeRun(session, device));
     } else {
-      addContext(describeHost(line.words));
+      addContext(describeHost(session.words));
     }
     registerAll();
     benchmark::Initialize(&argc, argv);

@@ -8,12 +8,12 @@
 #include <fstream>
 
 #include "host/core/error.h"
-#include "host/filter/mixture_cache.h"
 #include "host/fit/ltc_table.h"
-#include "host/report/comparison.h"
-#include "host/report/html_report.h"
-#include "host/report/record_log.h"
-#include "host/report/records.h"
+#include "host/mixture/mixture_cache.h"
+#include "host/report/page/html_report.h"
+#include "host/report/record/comparison.h"
+#include "host/report/record/record_log.h"
+#include "host/report/record/records.h"
 #include "host/scene/import_mesh.h"
 #include "host/scene/read_scene_parts.h"
 #include "host/simulate/simulation_file.h"

@@ -3,7 +3,7 @@
 #include <exception>
 #include <new>
 
-#include "host/cli/interrupt.h"
+#include "host/experiment/interrupt.h"
 #include "host/cli/program.h"
 #include "host/core/error.h"
 

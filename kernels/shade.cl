@@ -3,7 +3,7 @@
 // list, with each entry's material in `owners`.
 #include "config.clh"
 #include "types.h"
-#include "wide.clh"
+#include "wide/wide.clh"
 
 #include "shade_pixels.clh"
 

@@ -4,19 +4,19 @@
 // Samples can be taken in batches; the host divides the sums by the number of all samples.
 #include "config.clh"
 #include "types.h"
-#include "wide.clh"
+#include "wide/wide.clh"
 
 #if LTC
-#include "area_light_truth.clh"
+#include "area/area_light_truth.clh"
 #endif
 #if CONE_LIGHTS
-#include "cone_light.clh"
+#include "glint/cone_light.clh"
 #endif
-#include "hash.clh"
+#include "glint/hash.clh"
 #include "pixel.clh"
 #if NORMAL_MAP
-#include "normal_frame.clh"
-#include "texture_rgba.clh"
+#include "normals/normal_frame.clh"
+#include "normals/texture_rgba.clh"
 #endif
 
 // Steps of the R2 sequence, 2^32 over powers of the plastic number: n points fill the square evenly

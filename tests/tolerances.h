@@ -1,7 +1,7 @@
 // Bounds that several tests share, each with its reason. Those that `glintmark verify` shares as
-// well stand in host/verify/tolerances.h.
+// well stand in host/harness/tolerances.h.
 #pragma once
-#include "host/verify/tolerances.h"
+#include "host/harness/tolerances.h"
 
 namespace glintmark {
 

@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <memory>
 
-#include "host/cli/accuracy_effect.h"
-#include "host/cli/interrupt.h"
+#include "host/cli/command_line.h"
+#include "host/cli/output_options.h"
 #include "host/core/error.h"
+#include "host/experiment/accuracy/accuracy_effect.h"
+#include "host/experiment/interrupt.h"
 #include "host/report/accuracy_table.h"
 
 namespace glintmark {

@@ -4,14 +4,14 @@
 
 #include <array>
 
-#include "host/cli/count_cells.h"
-#include "host/cli/interrupt.h"
+#include "host/core/atomic_file.h"
 #include "host/core/error.h"
 #include "host/core/progress.h"
 #include "host/core/statistics.h"
-#include "host/report/atomic_file.h"
-#include "host/report/image_io.h"
-#include "host/report/text_table.h"
+#include "host/experiment/count_cells.h"
+#include "host/experiment/interrupt.h"
+#include "host/report/picture/image_io.h"
+#include "host/report/record/text_table.h"
 
 namespace glintmark {
 namespace {

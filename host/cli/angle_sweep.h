@@ -3,7 +3,8 @@
 #include <string>
 
 #include "host/cli/command_line.h"
-#include "host/report/heatmap.h"
+#include "host/frame/frame_renderer.h"
+#include "host/report/picture/heatmap.h"
 
 namespace glintmark {
 

@@ -6,17 +6,19 @@
 #include <algorithm>
 #include <memory>
 
-#include "host/cli/bench_run.h"
-#include "host/cli/effects_bench.h"
-#include "host/cli/interrupt.h"
-#include "host/cli/msbrdf_bench.h"
-#include "host/cli/tan05_bench.h"
-#include "host/cli/tao21_bench.h"
-#include "host/cli/zk16_bench.h"
+#include "host/cli/command_line.h"
+#include "host/cli/output_options.h"
+#include "host/core/atomic_file.h"
 #include "host/core/error.h"
 #include "host/core/trace.h"
-#include "host/report/atomic_file.h"
-#include "host/report/trace_file.h"
+#include "host/experiment/bench_run.h"
+#include "host/experiment/effects/effects_bench.h"
+#include "host/experiment/interrupt.h"
+#include "host/experiment/msbrdf/msbrdf_bench.h"
+#include "host/experiment/tan05/tan05_bench.h"
+#include "host/experiment/tao21/tao21_bench.h"
+#include "host/experiment/zk16/zk16_bench.h"
+#include "host/report/record/trace_file.h"
 
 namespace glintmark {
 namespace {

@@ -5,9 +5,9 @@
 #include <memory>
 
 #include "host/cli/command_line.h"
+#include "host/core/atomic_file.h"
 #include "host/core/error.h"
-#include "host/report/atomic_file.h"
-#include "host/report/comparison.h"
+#include "host/report/record/comparison.h"
 
 namespace glintmark {
 namespace {

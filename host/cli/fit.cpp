@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "host/cli/fit_commands.h"
+#include "host/core/atomic_file.h"
 #include "host/core/error.h"
-#include "host/report/atomic_file.h"
 
 namespace glintmark {
 

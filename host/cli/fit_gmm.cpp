@@ -8,19 +8,19 @@
 #include <memory>
 
 #include "host/cli/fit_commands.h"
-#include "host/cli/interrupt.h"
 #include "host/cli/mixture_picture.h"
+#include "host/core/atomic_file.h"
 #include "host/core/error.h"
 #include "host/core/progress.h"
-#include "host/filter/mixture_cache.h"
-#include "host/filter/mixture_error.h"
-#include "host/filter/mixture_file.h"
+#include "host/experiment/interrupt.h"
 #include "host/filter/normal_map_generators.h"
-#include "host/fit/device_mixture_fit.h"
-#include "host/report/atomic_file.h"
-#include "host/report/image_io.h"
-#include "host/report/picture_strip.h"
-#include "host/report/text_table.h"
+#include "host/mixture/device_mixture_fit.h"
+#include "host/mixture/mixture_cache.h"
+#include "host/mixture/mixture_error.h"
+#include "host/mixture/mixture_file.h"
+#include "host/report/picture/image_io.h"
+#include "host/report/picture/picture_strip.h"
+#include "host/report/record/text_table.h"
 
 namespace glintmark {
 namespace {

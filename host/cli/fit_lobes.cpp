@@ -6,14 +6,14 @@
 #include <memory>
 
 #include "host/cli/fit_commands.h"
-#include "host/cli/interrupt.h"
-#include "host/cli/lobe_report.h"
+#include "host/core/atomic_file.h"
 #include "host/core/error.h"
 #include "host/core/progress.h"
 #include "host/core/stopwatch.h"
+#include "host/experiment/interrupt.h"
+#include "host/experiment/msbrdf/lobe_report.h"
 #include "host/reference/microfacet.h"
-#include "host/report/atomic_file.h"
-#include "host/report/image_io.h"
+#include "host/report/picture/image_io.h"
 
 namespace glintmark {
 namespace {

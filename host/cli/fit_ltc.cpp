@@ -6,16 +6,16 @@
 #include <memory>
 
 #include "host/cli/fit_commands.h"
-#include "host/cli/interrupt.h"
+#include "host/core/atomic_file.h"
 #include "host/core/error.h"
 #include "host/core/progress.h"
 #include "host/core/stopwatch.h"
+#include "host/experiment/interrupt.h"
 #include "host/fit/ltc_error.h"
 #include "host/fit/ltc_fit.h"
-#include "host/report/atomic_file.h"
-#include "host/report/image_io.h"
-#include "host/report/matrix_picture.h"
-#include "host/report/text_table.h"
+#include "host/report/picture/image_io.h"
+#include "host/report/picture/matrix_picture.h"
+#include "host/report/record/text_table.h"
 
 namespace glintmark {
 namespace {

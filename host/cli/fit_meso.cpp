@@ -1,4 +1,4 @@
-// glintmark fit meso: constants of kernels/meso_table.h, and how good they are.
+// glintmark fit meso: constants of kernels/area/meso_table.h, and how good they are.
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
@@ -7,7 +7,7 @@
 #include "host/cli/fit_commands.h"
 #include "host/fit/meso_fit.h"
 #include "host/reference/scaled_cosine.h"
-#include "host/report/text_table.h"
+#include "host/report/record/text_table.h"
 
 namespace glintmark {
 namespace {

@@ -6,11 +6,12 @@
 
 #include "host/cli/angle_sweep.h"
 #include "host/cli/command_line.h"
-#include "host/cli/count_cells.h"
+#include "host/core/atomic_file.h"
 #include "host/core/error.h"
-#include "host/report/atomic_file.h"
-#include "host/report/heatmap.h"
-#include "host/report/image_io.h"
+#include "host/experiment/count_cells.h"
+#include "host/frame/frame_renderer.h"
+#include "host/report/picture/heatmap.h"
+#include "host/report/picture/image_io.h"
 
 namespace glintmark {
 namespace {

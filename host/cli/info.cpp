@@ -4,7 +4,7 @@
 
 #include "host/cli/command_line.h"
 #include "host/ocl/compute.h"
-#include "host/report/run_info.h"
+#include "host/report/record/run_info.h"
 
 namespace glintmark {
 namespace {

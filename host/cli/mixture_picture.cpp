@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/report/picture_strip.h"
+#include "host/report/picture/picture_strip.h"
 
 namespace glintmark {
 namespace {

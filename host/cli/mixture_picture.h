@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "host/core/image.h"
-#include "host/filter/normal_mixture.h"
+#include "host/mixture/normal_mixture.h"
 
 namespace glintmark {
 

@@ -6,14 +6,15 @@
 #include <optional>
 
 #include "host/cli/command_line.h"
+#include "host/core/atomic_file.h"
 #include "host/core/error.h"
 #include "host/core/trace.h"
-#include "host/report/aov.h"
-#include "host/report/atomic_file.h"
-#include "host/report/image_io.h"
-#include "host/report/star.h"
-#include "host/report/tonemap.h"
-#include "host/report/trace_file.h"
+#include "host/frame/frame_renderer.h"
+#include "host/report/picture/aov.h"
+#include "host/report/picture/image_io.h"
+#include "host/report/picture/star.h"
+#include "host/report/picture/tonemap.h"
+#include "host/report/record/trace_file.h"
 
 namespace glintmark {
 namespace {

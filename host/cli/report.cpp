@@ -6,9 +6,9 @@
 #include <memory>
 
 #include "host/cli/command_line.h"
+#include "host/core/atomic_file.h"
 #include "host/core/error.h"
-#include "host/report/atomic_file.h"
-#include "host/report/html_report.h"
+#include "host/report/page/html_report.h"
 
 namespace glintmark {
 namespace {

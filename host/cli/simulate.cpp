@@ -6,14 +6,14 @@
 #include <numbers>
 
 #include "host/cli/command_line.h"
-#include "host/cli/interrupt.h"
+#include "host/core/atomic_file.h"
 #include "host/core/error.h"
 #include "host/core/progress.h"
 #include "host/core/stopwatch.h"
-#include "host/report/atomic_file.h"
-#include "host/report/image_io.h"
-#include "host/report/lobe_picture.h"
-#include "host/report/text_table.h"
+#include "host/experiment/interrupt.h"
+#include "host/experiment/msbrdf/lobe_picture.h"
+#include "host/report/picture/image_io.h"
+#include "host/report/record/text_table.h"
 #include "host/simulate/simulation.h"
 #include "host/simulate/simulation_file.h"
 

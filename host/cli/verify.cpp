@@ -10,13 +10,13 @@
 #include <regex>
 
 #include "host/cli/command_line.h"
-#include "host/cli/interrupt.h"
+#include "host/core/atomic_file.h"
 #include "host/core/error.h"
 #include "host/core/stopwatch.h"
-#include "host/report/atomic_file.h"
-#include "host/report/text_table.h"
+#include "host/experiment/interrupt.h"
+#include "host/harness/pixel_harness.h"
+#include "host/report/record/text_table.h"
 #include "host/verify/check.h"
-#include "host/verify/pixel_harness.h"
 
 namespace glintmark {
 namespace {

@@ -30,7 +30,7 @@ LtcFactors factorsOf(const LtcLobe& lobe);
 glm::dmat3 ltcInverseMatrix(const LtcLobe& lobe);
 
 /// The same as stored in a table at roughness alpha > 0 and view angle theta: entries XX to ZZ of
-/// `cell`, see kernels/ltc_table.h.
+/// `cell`, see kernels/area/ltc_table.h.
 void storeLobe(const LtcLobe& lobe, double alpha, double cos_theta, LtcCell& cell);
 
 /// M^-1 of a cell at roughness alpha > 0 and view angle theta, middle entry 1, for directions in

@@ -2,7 +2,7 @@
 //
 // [HDHN16] Heitz, Dupuy, Hill, Neubelt, "Real-Time Polygonal-Light Shading with Linearly
 // Transformed Cosines", SIGGRAPH 2016. [HH16] Heitz, Hill, "Real-Time Area Lighting: a Journey from
-// Research to Production", SIGGRAPH 2016 courses. Layout and addressing: kernels/ltc_table.h.
+// Research to Production", SIGGRAPH 2016 courses. Layout and addressing: kernels/area/ltc_table.h.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -12,11 +12,11 @@
 #include <vector>
 
 #include "host/reference/microfacet.h"
-#include "kernels/ltc_table.h"
+#include "kernels/area/ltc_table.h"
 
 namespace glintmark {
 
-/// What one cell of a table holds, in the order of kernels/ltc_table.h.
+/// What one cell of a table holds, in the order of kernels/area/ltc_table.h.
 struct LtcCell {
   double xx = 1, xz = 0, zx = 0, zz = 1;  // inverse matrix, last row divided by alpha
   double scale = 1, schlick = 0;          // factors of an integral over the upper hemisphere

@@ -11,7 +11,7 @@
 #include "host/fit/meso_convolution.h"
 #include "host/fit/minimize.h"
 #include "host/reference/scaled_cosine.h"
-#include "kernels/meso_table.h"
+#include "kernels/area/meso_table.h"
 
 namespace glintmark {
 namespace {

@@ -1,4 +1,4 @@
-// Derives the constants of kernels/meso_table.h and says how good they are.
+// Derives the constants of kernels/area/meso_table.h and says how good they are.
 #pragma once
 #include <array>
 #include <functional>
@@ -6,13 +6,13 @@
 
 namespace glintmark {
 
-/// Constants of method `exact`, in the order of kernels/meso_table.h.
+/// Constants of method `exact`, in the order of kernels/area/meso_table.h.
 struct MesoConstants {
   std::array<double, 9> inverse{};  // INVERSE_0 to INVERSE_8
   std::array<double, 4> join{};     // JOIN_A to JOIN_D
 };
 
-/// Those of kernels/meso_table.h.
+/// Those of kernels/area/meso_table.h.
 MesoConstants shippedMesoConstants();
 
 /// alpha_me of a mean length, clamped to [0, 1]; any length, also beyond 1.

@@ -1,10 +1,10 @@
-// The host's side of kernels/multiscatter.h.
+// The host's side of kernels/scatter/multiscatter.h.
 #pragma once
 #include "host/core/shared_types.h"
 
 namespace glintmark {
 
-#include "kernels/multiscatter.h"
+#include "kernels/scatter/multiscatter.h"
 
 static_assert(sizeof(MultiscatterMaterial) == 208);
 

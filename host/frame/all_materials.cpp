@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "host/core/error.h"
+#include "host/frame/effect/multiscatter.h"
 #include "host/frame/effects.h"
-#include "host/frame/multiscatter.h"
 #include "host/raster/projection.h"
 
 namespace glintmark {

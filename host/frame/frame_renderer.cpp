@@ -11,10 +11,10 @@
 #include "host/core/stopwatch.h"
 #include "host/core/trace.h"
 #include "host/frame/all_materials.h"
-#include "host/frame/area_lights.h"
+#include "host/frame/effect/area_lights.h"
+#include "host/frame/effect/lights.h"
+#include "host/frame/effect/multiscatter.h"
 #include "host/frame/effects.h"
-#include "host/frame/lights.h"
-#include "host/frame/multiscatter.h"
 #include "host/ocl/compute.h"
 
 namespace glintmark {

@@ -36,8 +36,11 @@ std::string dump(const FailedBuild& failed) {
   if (error || !mkdtemp(folder.data())) return {};
   writeText(fs::path(folder) / "options.txt", failed.options + "\n");
   writeText(fs::path(folder) / "build.log", failed.log);
-  for (const fs::path& file : kernelFiles(failed.kernel_folder))
-    fs::copy_file(file, fs::path(folder) / file.filename(), error);
+  for (const fs::path& file : kernelFiles(failed.kernel_folder)) {
+    const fs::path copy = fs::path(folder) / file.lexically_relative(failed.kernel_folder);
+    fs::create_directories(copy.parent_path(), error);
+    fs::copy_file(file, copy, error);
+  }
   return folder;
 }
 

@@ -25,7 +25,8 @@ std::string readFile(const fs::path& path) {
 std::vector<fs::path> kernelFiles(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code error;
-  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+  for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end;
+       it.increment(error)) {
     const fs::path extension = it->path().extension();
     if (extension == ".cl" || extension == ".clh" || extension == ".h") files.push_back(it->path());
   }
@@ -40,7 +41,8 @@ std::uint64_t hashKernels(const fs::path& folder) {
   std::uint64_t hash = fnv1a("");
   for (const fs::path& file : kernelFiles(folder)) {
     const std::string text = readFile(file);
-    hash = fnv1a(fmt::format("{}:{}:", file.filename().string(), text.size()), hash);
+    hash =
+        fnv1a(fmt::format("{}:{}:", file.lexically_relative(folder).string(), text.size()), hash);
     hash = fnv1a(text, hash);
   }
   return hash;

@@ -1,4 +1,4 @@
-// Peak arithmetic and bandwidth of a device, by kernels/probe.cl.
+// Peak arithmetic and bandwidth of a device, by kernels/probes/probe.cl.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -107,7 +107,7 @@ double measureGbs(Device& device, const Program& program, int lanes) {
 DevicePeaks measurePeaks(Device& device, ProgramCache& cache, int lanes) {
   KernelConfig config;
   config.width = lanes;
-  const Program program = cache.get("probe.cl", config);
+  const Program program = cache.get("probes/probe.cl", config);
   DevicePeaks peaks;
   peaks.gflops = measureGflops(device, program, lanes);
   peaks.gbs = measureGbs(device, program, lanes);

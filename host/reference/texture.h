@@ -1,4 +1,4 @@
-// Filtering of mip-mapped textures in double precision: kernels/texture.clh.
+// Filtering of mip-mapped textures in double precision: kernels/normals/texture.clh.
 #pragma once
 #include <glm/glm.hpp>
 #include <vector>

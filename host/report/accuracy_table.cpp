@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include "host/report/case_records.h"
 #include "host/report/pareto.h"
-#include "host/report/text_table.h"
+#include "host/report/record/case_records.h"
+#include "host/report/record/text_table.h"
 
 namespace glintmark {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "host/report/record.h"
+#include "host/report/record/record.h"
 
 namespace glintmark {
 

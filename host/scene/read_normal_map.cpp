@@ -7,7 +7,6 @@
 
 #include "host/core/error.h"
 #include "host/filter/normal_map_generators.h"
-#include "host/filter/normal_mixture.h"
 #include "host/scene/read_scene_parts.h"
 #include "host/scene/scene_files.h"
 

@@ -1,10 +1,10 @@
-// The host's side of kernels/heightfield.h.
+// The host's side of kernels/scatter/heightfield.h.
 #pragma once
 #include "host/core/shared_types.h"
 
 namespace glintmark {
 
-#include "kernels/heightfield.h"
+#include "kernels/scatter/heightfield.h"
 
 static_assert(sizeof(HeightfieldRun) == 48);
 

@@ -134,8 +134,8 @@ void Simulator::prepare(const SimulationSettings& settings) {
   validate(settings);
   if (!surface_ || settings.correlation_texels != settings_.correlation_texels)
     surface_ = std::make_unique<SurfaceMaker>(device_, cache_, settings.correlation_texels);
-  trace_ =
-      cache_.getWithOptions("heightfield.cl", traceOptions(settings, lanes_)).kernel("traceRays");
+  trace_ = cache_.getWithOptions("scatter/heightfield.cl", traceOptions(settings, lanes_))
+               .kernel("traceRays");
   const HeightfieldRun run =
       makeRun(settings, surface_->countHeight(), raysPerItem(device_) / laneCount(lanes_));
   run_ = Buffer(device_, sizeof run, "the simulation's parameters");

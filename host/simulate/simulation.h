@@ -43,7 +43,8 @@ glm::dvec3 incidentDirection(const SimulationSettings& settings);
 struct Simulation {
   SimulationSettings settings;
   std::uint64_t rays_done = 0;
-  std::vector<std::uint64_t> histogram;  // HF_HISTOGRAM_WORDS, layout in kernels/heightfield.h
+  std::vector<std::uint64_t>
+      histogram;  // HF_HISTOGRAM_WORDS, layout in kernels/scatter/heightfield.h
 
   /// Rays that left above (side 0) or below (side 1) after `order` bounces, from 1.
   std::uint64_t left(int side, int order) const;

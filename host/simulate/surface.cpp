@@ -60,7 +60,7 @@ std::vector<float> reachedBlocks() {
 SurfaceMaker::SurfaceMaker(Device& device, ProgramCache& cache, double correlation_texels) {
   const SurfaceSpectrum spectrum = makeSurfaceSpectrum(correlation_texels);
   count_height_ = static_cast<float>(spectrum.height_deviation * kMostDeviations / HF_MOST_COUNTS);
-  const Program program = cache.getWithOptions("height_surface.cl", "");
+  const Program program = cache.getWithOptions("scatter/height_surface.cl", "");
   draw_modes_ = program.kernel("drawModes");
   sum_columns_ = program.kernel("sumColumns");
   sum_rows_ = program.kernel("sumRows");

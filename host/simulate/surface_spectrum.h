@@ -6,7 +6,7 @@
 
 namespace glintmark {
 
-/// Waves of kernels/height_surface.cl.
+/// Waves of kernels/scatter/height_surface.cl.
 struct SurfaceSpectrum {
   std::vector<float> amplitudes;  // HF_MODES x HF_MODE_ROWS, [texels]
   double height_deviation = 0;    // standard deviation of heights [texels]

@@ -6,11 +6,11 @@
 #include <numbers>
 
 #include "host/fit/ltc_lobe.h"
+#include "host/harness/specular_cases.h"
+#include "host/harness/tolerances.h"
 #include "host/reference/polygon_light.h"
 #include "host/reference/scaled_cosine.h"
 #include "host/verify/check_groups.h"
-#include "host/verify/specular_cases.h"
-#include "host/verify/tolerances.h"
 
 namespace glintmark {
 namespace {

@@ -6,11 +6,11 @@
 #include <random>
 #include <vector>
 
+#include "host/harness/binomial_cases.h"
+#include "host/harness/probes.h"
+#include "host/harness/tolerances.h"
 #include "host/reference/binomial.h"
-#include "host/verify/binomial_cases.h"
 #include "host/verify/check_groups.h"
-#include "host/verify/probes.h"
-#include "host/verify/tolerances.h"
 
 namespace glintmark {
 namespace {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "host/core/shared_types.h"
+#include "host/harness/pixel_harness.h"
 #include "host/verify/check_groups.h"
-#include "host/verify/pixel_harness.h"
 
 namespace glintmark {
 namespace {
@@ -17,7 +17,7 @@ void addDifferences(Finding& finding, const char* kernel,
   KernelBench& bench = KernelBench::shared();
   Buffer out(bench.device, N * 4, "probe output");
   const KernelArg args[] = {out};
-  bench.cache.getWithOptions("probe.cl", "").kernel(kernel).launch(args, 1, 1);
+  bench.cache.getWithOptions("probes/probe.cl", "").kernel(kernel).launch(args, 1, 1);
   std::array<std::uint32_t, N> values{};
   out.read(values.data(), N * 4);
   for (std::size_t i = 0; i < N; ++i)
@@ -44,7 +44,7 @@ Finding fusedMultiplyAdds(int lanes) {
   Buffer buffer(bench.device, values.size() * 4, "probe data");
   buffer.write(values.data(), values.size() * 4);
   const KernelArg args[] = {buffer, std::uint32_t{200}, 0.5f, 0.5f};
-  bench.cache.getWithOptions("probe.cl", "-D WIDTH=" + std::to_string(lanes))
+  bench.cache.getWithOptions("probes/probe.cl", "-D WIDTH=" + std::to_string(lanes))
       .kernel("probeFma")
       .launch(args, values.size() / static_cast<std::size_t>(lanes), 1);
   buffer.read(values.data(), values.size() * 4);

@@ -6,11 +6,11 @@
 #include <limits>
 #include <numbers>
 
+#include "host/harness/pixel_harness.h"
+#include "host/harness/random_pixels.h"
+#include "host/harness/tolerances.h"
 #include "host/reference/light_cone.h"
 #include "host/verify/check_groups.h"
-#include "host/verify/pixel_harness.h"
-#include "host/verify/random_pixels.h"
-#include "host/verify/tolerances.h"
 
 namespace glintmark {
 namespace {

@@ -5,9 +5,9 @@
 
 #include "host/filter/normal_map_generators.h"
 #include "host/frame/frame_renderer.h"
+#include "host/harness/pixel_harness.h"
+#include "host/harness/small_scenes.h"
 #include "host/verify/check_groups.h"
-#include "host/verify/pixel_harness.h"
-#include "host/verify/small_scenes.h"
 
 namespace glintmark {
 namespace {

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/harness/pixel_harness.h"
+#include "host/harness/simulation_cases.h"
+#include "host/harness/tolerances.h"
 #include "host/simulate/simulation.h"
 #include "host/verify/check_groups.h"
-#include "host/verify/pixel_harness.h"
-#include "host/verify/simulation_cases.h"
-#include "host/verify/tolerances.h"
 
 namespace glintmark {
 namespace {

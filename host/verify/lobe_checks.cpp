@@ -6,10 +6,10 @@
 #include <cmath>
 #include <random>
 
+#include "host/harness/pixel_harness.h"
+#include "host/harness/tolerances.h"
 #include "host/reference/normal_lobe.h"
 #include "host/verify/check_groups.h"
-#include "host/verify/pixel_harness.h"
-#include "host/verify/tolerances.h"
 
 namespace glintmark {
 namespace {
@@ -37,7 +37,7 @@ std::vector<ProbedLobe> probe(const std::vector<LobeCase>& cases, float alpha, i
   input.write(in.data(), in.size() * 4);
   const std::vector<KernelArg> args = {input, output, static_cast<std::uint32_t>(n), alpha};
   probeKernel(
-      "probe_lobe.cl", "probeLobe",
+      "probes/probe_lobe.cl", "probeLobe",
       fmt::format("-D WIDTH={} -D DIFFUSE=1 -D NORMAL_MAP=1 -D NORMAL_METHOD=5 -D LOBES=1", lanes))
       .launch(args, n / static_cast<std::size_t>(lanes), 16);
   output.read(out.data(), out.size() * 4);
@@ -152,7 +152,7 @@ Mixture probeMixture(const std::vector<glm::vec4>& moments, float alpha, int wid
   input.write(in.data(), in.size() * 4);
   const std::vector<KernelArg> args = {input, output, static_cast<std::uint32_t>(lanes), alpha};
   probeKernel(
-      "probe_lobe.cl", "probeMixture",
+      "probes/probe_lobe.cl", "probeMixture",
       fmt::format("-D WIDTH={} -D DIFFUSE=1 -D NORMAL_MAP=1 -D NORMAL_METHOD=5 -D LOBES=4", width))
       .launch(args, 1, 1);
   output.read(out.data(), out.size() * 4);

@@ -7,9 +7,9 @@
 #include <limits>
 #include <vector>
 
+#include "host/harness/probes.h"
+#include "host/harness/tolerances.h"
 #include "host/verify/check_groups.h"
-#include "host/verify/probes.h"
-#include "host/verify/tolerances.h"
 
 namespace glintmark {
 namespace {

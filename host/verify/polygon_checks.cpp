@@ -6,9 +6,9 @@
 #include <numbers>
 #include <tuple>
 
+#include "host/harness/polygon_cases.h"
+#include "host/harness/tolerances.h"
 #include "host/verify/check_groups.h"
-#include "host/verify/polygon_cases.h"
-#include "host/verify/tolerances.h"
 
 namespace glintmark {
 namespace {

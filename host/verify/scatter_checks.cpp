@@ -6,11 +6,11 @@
 
 #include "host/fit/lobe_model.h"
 #include "host/fit/multiscatter_data.h"
-#include "host/frame/multiscatter.h"
+#include "host/frame/effect/multiscatter.h"
+#include "host/harness/pixel_harness.h"
+#include "host/harness/scatter_harness.h"
+#include "host/harness/tolerances.h"
 #include "host/verify/check_groups.h"
-#include "host/verify/pixel_harness.h"
-#include "host/verify/scatter_harness.h"
-#include "host/verify/tolerances.h"
 
 namespace glintmark {
 namespace {

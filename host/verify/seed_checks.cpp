@@ -4,10 +4,10 @@
 #include <random>
 #include <vector>
 
+#include "host/harness/probes.h"
+#include "host/harness/seed_cases.h"
 #include "host/reference/seeds.h"
 #include "host/verify/check_groups.h"
-#include "host/verify/probes.h"
-#include "host/verify/seed_cases.h"
 
 namespace glintmark {
 namespace {

@@ -6,9 +6,9 @@
 #include <limits>
 #include <random>
 
+#include "host/harness/texture_harness.h"
+#include "host/harness/tolerances.h"
 #include "host/verify/check_groups.h"
-#include "host/verify/texture_harness.h"
-#include "host/verify/tolerances.h"
 
 namespace glintmark {
 namespace {

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "host/report/atomic_file.h"
+#include "host/core/atomic_file.h"
 
 namespace glintmark {
 namespace {

@@ -5,11 +5,11 @@
 #include <cstdio>
 #include <string>
 
-#include "host/report/atomic_file.h"
-#include "host/report/heatmap.h"
-#include "host/report/html_report.h"
-#include "host/report/image_io.h"
-#include "host/report/picture_strip.h"
+#include "host/core/atomic_file.h"
+#include "host/report/page/html_report.h"
+#include "host/report/picture/heatmap.h"
+#include "host/report/picture/image_io.h"
+#include "host/report/picture/picture_strip.h"
 #include "tests/browser/chromium.h"
 #include "tests/report/sample_run.h"
 

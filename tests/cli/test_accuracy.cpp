@@ -6,8 +6,8 @@
 #include <set>
 #include <sstream>
 
-#include "host/report/atomic_file.h"
-#include "host/report/records.h"
+#include "host/core/atomic_file.h"
+#include "host/report/record/records.h"
 #include "tests/cli/process.h"
 
 namespace glintmark {

@@ -1,8 +1,8 @@
 // compare on results files written here.
 #include <gtest/gtest.h>
 
-#include "host/report/atomic_file.h"
-#include "host/report/records.h"
+#include "host/core/atomic_file.h"
+#include "host/report/record/records.h"
 #include "tests/cli/process.h"
 #include "tests/report/sample_records.h"
 

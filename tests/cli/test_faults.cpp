@@ -8,8 +8,8 @@
 #include <sstream>
 #include <thread>
 
-#include "host/report/atomic_file.h"
-#include "host/report/records.h"
+#include "host/core/atomic_file.h"
+#include "host/report/record/records.h"
 #include "tests/cli/process.h"
 #include "tests/report/sample_run.h"
 

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <limits>
 
-#include "host/report/atomic_file.h"
-#include "host/report/image_io.h"
+#include "host/core/atomic_file.h"
+#include "host/report/picture/image_io.h"
 #include "tests/cli/process.h"
 
 namespace glintmark {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "host/report/atomic_file.h"
-#include "host/report/image_io.h"
+#include "host/core/atomic_file.h"
+#include "host/report/picture/image_io.h"
 #include "tests/cli/process.h"
 
 namespace glintmark {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <sstream>
 
-#include "host/report/atomic_file.h"
-#include "host/report/cell_statistics.h"
-#include "host/report/image_io.h"
+#include "host/core/atomic_file.h"
+#include "host/report/picture/cell_statistics.h"
+#include "host/report/picture/image_io.h"
 #include "tests/cli/process.h"
 
 namespace glintmark {

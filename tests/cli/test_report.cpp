@@ -1,9 +1,9 @@
 // report on a results folder written here.
 #include <gtest/gtest.h>
 
-#include "host/report/atomic_file.h"
-#include "host/report/image_io.h"
-#include "host/report/records.h"
+#include "host/core/atomic_file.h"
+#include "host/report/picture/image_io.h"
+#include "host/report/record/records.h"
 #include "tests/cli/process.h"
 #include "tests/report/sample_records.h"
 

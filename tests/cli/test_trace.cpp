@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/report/atomic_file.h"
+#include "host/core/atomic_file.h"
 #include "tests/cli/process.h"
 
 namespace glintmark {

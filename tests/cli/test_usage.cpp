@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "host/report/atomic_file.h"
+#include "host/core/atomic_file.h"
 #include "tests/cli/process.h"
 
 namespace glintmark {

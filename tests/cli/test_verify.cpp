@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "host/report/atomic_file.h"
+#include "host/core/atomic_file.h"
 #include "tests/cli/process.h"
 
 namespace glintmark {
@@ -63,7 +63,7 @@ TEST(Verify, TableAndJsonSayTheSame) {
 
 TEST(Verify, CatchesAChangedHash) {
   const TempFolder folder;
-  const fs::path kernels = changedKernels(folder, "hash.clh", "0x7FEB352Du", "0x7FEB352Fu");
+  const fs::path kernels = changedKernels(folder, "glint/hash.clh", "0x7FEB352Du", "0x7FEB352Fu");
   const ProcessResult result =
       verify("^seeds/integers$", {"--json", folder / "verify.json"}, kernels);
   EXPECT_EQ(result.exit_code, 1) << result.err << result.out;
@@ -74,14 +74,15 @@ TEST(Verify, CatchesAChangedHash) {
 
 TEST(Verify, CatchesAByteSumWithAWrongMean) {
   const TempFolder folder;
-  const fs::path kernels = changedKernels(folder, "hash.clh", "510.0f", "511.0f");
+  const fs::path kernels = changedKernels(folder, "glint/hash.clh", "510.0f", "511.0f");
   const ProcessResult result = verify("^seeds/random_numbers$", {}, kernels);
   EXPECT_EQ(result.exit_code, 1) << result.err << result.out;
 }
 
 TEST(Verify, AKernelThatDoesNotCompileFails) {
   const TempFolder folder;
-  const fs::path kernels = changedKernels(folder, "hash.clh", "WIDE vuint mixCell", "WIDE oops");
+  const fs::path kernels =
+      changedKernels(folder, "glint/hash.clh", "WIDE vuint mixCell", "WIDE oops");
   const ProcessResult result = verify("^seeds/integers$", {}, kernels);
   EXPECT_EQ(result.exit_code, 1) << result.err << result.out;
 }

@@ -9,7 +9,7 @@
 
 #include "host/filter/mip_chain.h"
 #include "host/filter/normal_map_generators.h"
-#include "host/filter/normal_mixture.h"
+#include "host/mixture/normal_mixture.h"
 
 namespace glintmark {
 

@@ -4,7 +4,7 @@
 #include <map>
 
 #include "host/core/error.h"
-#include "host/filter/mixture_order.h"
+#include "host/mixture/mixture_order.h"
 
 namespace glintmark {
 namespace {

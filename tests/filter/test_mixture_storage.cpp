@@ -7,11 +7,11 @@
 #include <fstream>
 #include <random>
 
-#include "host/filter/half_mixtures.h"
-#include "host/filter/mixture_cache.h"
-#include "host/filter/mixture_error.h"
 #include "host/filter/normal_map_generators.h"
 #include "host/filter/normal_moments.h"
+#include "host/mixture/half_mixtures.h"
+#include "host/mixture/mixture_cache.h"
+#include "host/mixture/mixture_error.h"
 
 namespace glintmark {
 namespace {

@@ -6,10 +6,10 @@
 #include <random>
 
 #include "host/core/error.h"
-#include "host/filter/fournier_peaks.h"
-#include "host/filter/mixture_error.h"
 #include "host/filter/normal_map_generators.h"
-#include "host/filter/normal_mixture.h"
+#include "host/mixture/fournier_peaks.h"
+#include "host/mixture/mixture_error.h"
+#include "host/mixture/normal_mixture.h"
 #include "tests/filter/mixture_checks.h"
 
 namespace glintmark {

@@ -16,7 +16,7 @@ namespace {
 // The shipped constants are rounded to single precision, and libraries differ in the last bits of
 // the functions that the fit calls.
 constexpr double kConstantsTolerance = 1e-5;
-// What the form of the fit leaves, see kernels/meso_table.h.
+// What the form of the fit leaves, see kernels/area/meso_table.h.
 constexpr double kJoinMaxError = 0.0045, kJoinSquares = 0.002, kInverseError = 6e-4;
 
 TEST(MeanResultantLength, AgreesWithQuadrature) {

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "host/frame/frame_renderer.h"
-#include "host/verify/small_scenes.h"
+#include "host/harness/small_scenes.h"
 
 namespace glintmark {
 

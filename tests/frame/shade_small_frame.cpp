@@ -5,7 +5,7 @@
 #include <exception>
 
 #include "host/frame/frame_renderer.h"
-#include "host/verify/small_scenes.h"
+#include "host/harness/small_scenes.h"
 
 int main(int argc, char** argv) {
   using namespace glintmark;

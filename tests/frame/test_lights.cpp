@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "host/frame/lights.h"
+#include "host/frame/effect/lights.h"
 
 namespace glintmark {
 namespace {

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "fuzz/entries.h"
-#include "host/report/atomic_file.h"
+#include "host/core/atomic_file.h"
 
 namespace glintmark {
 namespace {

@@ -7,7 +7,7 @@
 #include <map>
 #include <vector>
 
-#include "host/verify/binomial_cases.h"
+#include "host/harness/binomial_cases.h"
 
 namespace glintmark {
 namespace {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/harness/pixel_harness.h"
+#include "host/harness/random_pixels.h"
 #include "host/reference/footprint.h"
-#include "host/verify/pixel_harness.h"
-#include "host/verify/random_pixels.h"
 
 namespace glintmark {
 namespace {

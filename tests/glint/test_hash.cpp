@@ -7,8 +7,8 @@
 #include <numeric>
 #include <vector>
 
+#include "host/harness/seed_cases.h"
 #include "host/reference/seeds.h"
-#include "host/verify/seed_cases.h"
 
 namespace glintmark {
 namespace {

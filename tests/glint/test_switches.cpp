@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "host/verify/pixel_harness.h"
-#include "host/verify/random_pixels.h"
+#include "host/harness/pixel_harness.h"
+#include "host/harness/random_pixels.h"
 
 namespace glintmark {
 namespace {

@@ -6,10 +6,10 @@
 #include <cstring>
 
 #include "host/core/error.h"
-#include "host/filter/mixture_error.h"
 #include "host/filter/normal_map_generators.h"
-#include "host/fit/device_mixture_fit.h"
-#include "host/verify/pixel_harness.h"
+#include "host/harness/pixel_harness.h"
+#include "host/mixture/device_mixture_fit.h"
+#include "host/mixture/mixture_error.h"
 #include "tests/filter/mixture_checks.h"
 
 namespace glintmark {

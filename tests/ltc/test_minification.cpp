@@ -8,9 +8,9 @@
 #include "host/filter/normal_map_generators.h"
 #include "host/frame/effects.h"
 #include "host/frame/ground_truth.h"
-#include "host/verify/area_light_harness.h"
-#include "host/verify/pixel_harness.h"
-#include "host/verify/small_scenes.h"
+#include "host/harness/area_light_harness.h"
+#include "host/harness/pixel_harness.h"
+#include "host/harness/small_scenes.h"
 
 namespace glintmark {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "host/verify/polygon_cases.h"
+#include "host/harness/polygon_cases.h"
 
 namespace glintmark {
 namespace {

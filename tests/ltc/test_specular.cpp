@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "host/fit/ltc_lobe.h"
+#include "host/harness/specular_cases.h"
 #include "host/reference/polygon_light.h"
-#include "host/verify/specular_cases.h"
 
 namespace glintmark {
 namespace {

@@ -1,7 +1,7 @@
 // One device for the tests of simulations.
 #pragma once
+#include "host/harness/simulation_cases.h"
 #include "host/simulate/simulation.h"
-#include "host/verify/simulation_cases.h"
 
 namespace glintmark {
 

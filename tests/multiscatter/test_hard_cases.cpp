@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "host/fit/lobe_model.h"
-#include "host/verify/scatter_harness.h"
-#include "host/verify/tolerances.h"
+#include "host/harness/scatter_harness.h"
+#include "host/harness/tolerances.h"
 
 namespace glintmark {
 namespace {

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "host/report/lobe_picture.h"
+#include "host/experiment/msbrdf/lobe_picture.h"
 #include "tests/multiscatter/simulation_bench.h"
 
 namespace glintmark {

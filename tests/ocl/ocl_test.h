@@ -96,7 +96,7 @@ class ProbeKernelsTest : public OclTest {
  protected:
   ProbeKernelsTest() {
     const std::filesystem::path project = std::filesystem::path(GLINTMARK_SOURCE_DIR) / "kernels";
-    std::filesystem::copy(project / "probe.cl", kernels_);
+    std::filesystem::copy(project / "probes", kernels_ / "probes");
     std::filesystem::copy(project / "types.h", kernels_);
   }
 };

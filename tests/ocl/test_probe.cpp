@@ -39,11 +39,11 @@ TEST_F(ProbeTest, PeaksRefuseAnUnknownWidth) {
 
 // A device that computes something else must not be given a peak.
 TEST_F(ProbeTest, PeaksCheckTheAnswer) {
-  std::string source = readFile(kernels_ / "probe.cl");
+  std::string source = readFile(kernels_ / "probes/probe.cl");
   const std::string line = "x7 = fma(x7, va, vb);";
   ASSERT_NE(source.find(line), std::string::npos);
   source.replace(source.find(line), line.size(), "x7 = fma(x7, va, va + vb);");
-  writeFile(kernels_ / "probe.cl", source);
+  writeFile(kernels_ / "probes/probe.cl", source);
   ProgramCache wrong(device_);
   EXPECT_EQ(errorOf([&] { measurePeaks(device_, wrong, 1); }),
             "the FMA probe gave 13 instead of 12 on '" + device_.info().name +

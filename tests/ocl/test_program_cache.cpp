@@ -201,7 +201,7 @@ TEST_F(ProgramCacheTest, MissingFilesAndFoldersAreNamed) {
 
 TEST_F(ProgramCacheTest, WithoutEnvironmentTheProjectsKernelsAreFound) {
   unsetenv("GLINTMARK_KERNELS");
-  EXPECT_TRUE(fs::exists(fs::path(kernelFolder()) / "probe.cl")) << kernelFolder();
+  EXPECT_TRUE(fs::exists(fs::path(kernelFolder()) / "probes/probe.cl")) << kernelFolder();
 }
 
 }  // namespace

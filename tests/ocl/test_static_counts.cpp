@@ -79,7 +79,7 @@ class StaticCountsTest : public ProbeKernelsTest {
 TEST_F(StaticCountsTest, FmaProbeIsTwelveVectorInstructionsAndNothingSpilled) {
   const int lanes = device_.info().default_lanes;
   const Program probe =
-      ProgramCache(device_).getWithOptions("probe.cl", "-D WIDTH=" + std::to_string(lanes));
+      ProgramCache(device_).getWithOptions("probes/probe.cl", "-D WIDTH=" + std::to_string(lanes));
   const auto counts = staticCounts(probe, "probeFma");
   EXPECT_FALSE(staticCounts(probe, "noSuchKernel"));
   ASSERT_EQ(counts.has_value(), hasMachineCode());
@@ -95,7 +95,7 @@ TEST_F(StaticCountsTest, FmaProbeIsTwelveVectorInstructionsAndNothingSpilled) {
 }
 
 TEST_F(StaticCountsTest, BinariesFromDiskCountTheSame) {
-  const auto build = [&] { return ProgramCache(device_).getWithOptions("probe.cl", ""); };
+  const auto build = [&] { return ProgramCache(device_).getWithOptions("probes/probe.cl", ""); };
   const Program fresh = build(), stored = build();
   ASSERT_TRUE(stored.fromDiskCache());
   const auto a = staticCounts(fresh, "probeTriad"), b = staticCounts(stored, "probeTriad");
@@ -107,7 +107,7 @@ TEST_F(StaticCountsTest, BinariesFromDiskCountTheSame) {
 }
 
 TEST_F(StaticCountsTest, WithoutObjdumpThereAreNone) {
-  const Program probe = ProgramCache(device_).getWithOptions("probe.cl", "");
+  const Program probe = ProgramCache(device_).getWithOptions("probes/probe.cl", "");
   const std::string path = getenv("PATH");
   setenv("PATH", "/nonexistent", 1);
   EXPECT_FALSE(staticCounts(probe, "probeFma"));

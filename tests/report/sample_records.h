@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include "host/report/record.h"
+#include "host/report/record/record.h"
 
 namespace glintmark {
 

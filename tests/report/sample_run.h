@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "host/report/accuracy_table.h"
-#include "host/report/records.h"
+#include "host/report/record/records.h"
 #include "tests/report/sample_records.h"
 
 namespace glintmark {

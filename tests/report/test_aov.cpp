@@ -1,4 +1,4 @@
-#include "host/report/aov.h"
+#include "host/report/picture/aov.h"
 
 #include <gtest/gtest.h>
 

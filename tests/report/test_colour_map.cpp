@@ -1,4 +1,4 @@
-#include "host/report/colour_map.h"
+#include "host/report/picture/colour_map.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "host/report/comparison.h"
+#include "host/report/record/comparison.h"
 
 #include <gtest/gtest.h>
 

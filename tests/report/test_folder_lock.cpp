@@ -1,11 +1,11 @@
-#include "host/report/folder_lock.h"
+#include "host/report/record/folder_lock.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "host/core/atomic_file.h"
 #include "host/core/error.h"
-#include "host/report/atomic_file.h"
 #include "tests/report/temp_folder.h"
 
 namespace glintmark {

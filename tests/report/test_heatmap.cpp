@@ -1,12 +1,12 @@
-#include "host/report/heatmap.h"
+#include "host/report/picture/heatmap.h"
 
 #include <gtest/gtest.h>
 
 #include <sstream>
 
 #include "host/core/error.h"
-#include "host/report/colour_map.h"
-#include "host/report/text_drawing.h"
+#include "host/report/picture/colour_map.h"
+#include "host/report/picture/text_drawing.h"
 
 namespace glintmark {
 namespace {

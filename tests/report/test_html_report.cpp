@@ -1,4 +1,4 @@
-#include "host/report/html_report.h"
+#include "host/report/page/html_report.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "host/report/heatmap.h"
+#include "host/report/picture/heatmap.h"
 #include "tests/report/sample_records.h"
 #include "tests/report/sample_run.h"
 

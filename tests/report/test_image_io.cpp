@@ -1,4 +1,4 @@
-#include "host/report/image_io.h"
+#include "host/report/picture/image_io.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -9,8 +9,8 @@
 #include <fstream>
 #include <limits>
 
+#include "host/core/atomic_file.h"
 #include "host/core/error.h"
-#include "host/report/atomic_file.h"
 #include "tests/report/temp_folder.h"
 
 namespace glintmark {

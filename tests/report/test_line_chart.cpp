@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "host/core/error.h"
-#include "host/report/line_chart.h"
-#include "host/report/picture_strip.h"
+#include "host/report/picture/line_chart.h"
+#include "host/report/picture/picture_strip.h"
 
 namespace glintmark {
 namespace {

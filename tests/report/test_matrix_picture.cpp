@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "host/core/error.h"
-#include "host/report/colour_map.h"
-#include "host/report/matrix_picture.h"
+#include "host/report/picture/colour_map.h"
+#include "host/report/picture/matrix_picture.h"
 
 namespace glintmark {
 namespace {

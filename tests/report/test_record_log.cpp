@@ -1,13 +1,13 @@
-#include "host/report/record_log.h"
+#include "host/report/record/record_log.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <fstream>
 
+#include "host/core/atomic_file.h"
 #include "host/core/error.h"
-#include "host/report/atomic_file.h"
-#include "host/report/records.h"
+#include "host/report/record/records.h"
 #include "tests/report/sample_records.h"
 #include "tests/report/temp_folder.h"
 

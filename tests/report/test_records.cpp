@@ -1,11 +1,11 @@
-#include "host/report/records.h"
+#include "host/report/record/records.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "host/core/atomic_file.h"
 #include "host/core/error.h"
-#include "host/report/atomic_file.h"
 #include "tests/report/sample_records.h"
 #include "tests/report/temp_folder.h"
 

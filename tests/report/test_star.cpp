@@ -1,4 +1,4 @@
-#include "host/report/star.h"
+#include "host/report/picture/star.h"
 
 #include <gtest/gtest.h>
 

@@ -4,10 +4,10 @@
 #include <sstream>
 
 #include "host/core/error.h"
-#include "host/report/effects_table.h"
-#include "host/report/msbrdf_table.h"
-#include "host/report/text_table.h"
-#include "host/report/zk16_table.h"
+#include "host/experiment/effects/effects_table.h"
+#include "host/experiment/msbrdf/msbrdf_table.h"
+#include "host/experiment/zk16/zk16_table.h"
+#include "host/report/record/text_table.h"
 #include "tests/report/sample_records.h"
 
 namespace glintmark {

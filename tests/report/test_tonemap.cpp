@@ -1,4 +1,4 @@
-#include "host/report/tonemap.h"
+#include "host/report/picture/tonemap.h"
 
 #include <gtest/gtest.h>
 

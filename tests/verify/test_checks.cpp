@@ -10,8 +10,8 @@
 #include <set>
 
 #include "host/core/error.h"
+#include "host/harness/pixel_harness.h"
 #include "host/verify/check.h"
-#include "host/verify/pixel_harness.h"
 
 namespace glintmark {
 namespace {

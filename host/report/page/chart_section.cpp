@@ -8,10 +8,10 @@
 #include <set>
 
 #include "host/report/accuracy_table.h"
-#include "host/report/case_records.h"
 #include "host/report/page/html_text.h"
 #include "host/report/page/table_names.h"
-#include "host/report/text_table.h"
+#include "host/report/record/case_records.h"
+#include "host/report/record/text_table.h"
 
 namespace glintmark {
 namespace {

@@ -3,7 +3,7 @@
 #include <span>
 #include <string>
 
-#include "host/report/record.h"
+#include "host/report/record/record.h"
 
 namespace glintmark {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "host/report/text_table.h"
+#include "host/report/record/text_table.h"
 
 namespace glintmark {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "host/report/record.h"
+#include "host/report/record/record.h"
 
 namespace glintmark {
 

@@ -6,13 +6,13 @@
 #include <cmath>
 #include <optional>
 
+#include "host/core/atomic_file.h"
 #include "host/core/error.h"
-#include "host/report/atomic_file.h"
-#include "host/report/case_records.h"
-#include "host/report/heatmap.h"
-#include "host/report/image_io.h"
 #include "host/report/page/html_text.h"
-#include "host/report/text_table.h"
+#include "host/report/picture/heatmap.h"
+#include "host/report/picture/image_io.h"
+#include "host/report/record/case_records.h"
+#include "host/report/record/text_table.h"
 
 namespace glintmark {
 namespace {

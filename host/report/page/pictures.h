@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "host/report/cell_statistics.h"
-#include "host/report/record.h"
+#include "host/report/picture/cell_statistics.h"
+#include "host/report/record/record.h"
 
 namespace glintmark {
 

@@ -1,0 +1,80 @@
+#include "host/experiment/accuracy/accuracy_effect.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/core/error.h"
+#include "host/report/accuracy_table.h"
+
+namespace glintmark {
+namespace {
+
+template <typename Get>
+double geometricMean(std::span<const AccuracyFigures> figures, Get get) {
+  double sum = 0;
+  for (const AccuracyFigures& one : figures) sum += std::log(get(one));  // log(0): the mean is 0
+  return std::exp(sum / static_cast<double>(figures.size()));
+}
+
+std::optional<double> geometricMeanOf(std::span<const AccuracyFigures> figures,
+                                      std::optional<double> AccuracyFigures::*member) {
+  if (std::ranges::any_of(figures, [&](const auto& one) { return !(one.*member); })) return {};
+  return geometricMean(figures, [&](const auto& one) { return *(one.*member); });
+}
+
+}  // namespace
+
+std::string knobOf(const std::string& setting) {
+  const std::size_t slash = setting.find('/');
+  const std::size_t begin = slash == std::string::npos ? 0 : slash + 1;
+  return setting.substr(begin, setting.find('=', begin) - begin);
+}
+
+AccuracyFigures meanFigures(std::span<const AccuracyFigures> figures) {
+  if (figures.empty()) throw Error("no scene to take a mean over");
+  AccuracyFigures mean;
+  mean.error = geometricMean(figures, [](const auto& one) { return one.error; });
+  mean.truth_stderr = geometricMean(figures, [](const auto& one) { return one.truth_stderr; });
+  mean.rel_mse = geometricMean(figures, [](const auto& one) { return one.rel_mse; });
+  mean.colour_error = geometricMean(figures, [](const auto& one) { return one.colour_error; });
+  mean.distribution_distance = geometricMeanOf(figures, &AccuracyFigures::distribution_distance);
+  mean.frame_to_frame_error = geometricMeanOf(figures, &AccuracyFigures::frame_to_frame_error);
+  for (const AccuracyFigures& one : figures) {
+    mean.bias += one.bias / static_cast<double>(figures.size());
+    if (mean.failure.empty()) mean.failure = one.failure;
+  }
+  return mean;
+}
+
+std::vector<Record> accuracyRecords(const BenchRun& run, const std::string& case_name,
+                                    const std::string& role, const AccuracyFigures& figures,
+                                    const AccuracyTimes& times, const AccuracyNotes& notes) {
+  std::vector<Record> records;
+  const auto add = [&](const char* metric, const char* unit, const std::vector<double>& samples,
+                       const std::string& note) {
+    records.push_back(run.record(kAccuracyTable, case_name, metric, unit, samples, note));
+    records.back().config["role"] = role;
+    if (figures.failure.empty()) return;
+    records.back().valid = false;
+    records.back().note = "not valid: " + figures.failure;
+  };
+  add("error", "1", {figures.error}, notes.error);
+  add("truth_stderr", "1", {figures.truth_stderr}, "of the truth, in the metric of the error");
+  add("time_ratio", "1", times.ratio, notes.time);
+  add("time_ms", "ms", times.ms, notes.time);
+  if (!times.fit_ratio.empty())
+    add("fit_ratio", "1", times.fit_ratio,
+        "what is fitted before the first frame, over the default's, in turn");
+  add("bias", "1", {figures.bias}, "of the mean radiance");
+  add("rel_mse", "1", {figures.rel_mse}, "");
+  add("colour_error", "1", {figures.colour_error}, "of display colours");
+  if (figures.distribution_distance)
+    add("distribution_distance", "1", {*figures.distribution_distance},
+        "Wasserstein distance of pixel luminances over their mean");
+  if (figures.frame_to_frame_error)
+    add("frame_to_frame_error", "1", {*figures.frame_to_frame_error},
+        "error of the change from frame to frame at a quarter of a pixel, in display colours");
+  return records;
+}
+
+}  // namespace glintmark

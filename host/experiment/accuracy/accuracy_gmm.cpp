@@ -1,0 +1,121 @@
+// Knobs of Gaussian mixtures of normals, and the other ways to filter them as rivals. [TAN05]
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "host/core/error.h"
+#include "host/experiment/accuracy/accuracy_truth.h"
+#include "host/frame/effect/normal_maps.h"
+#include "host/mixture/normal_mixture.h"
+#include "host/report/accuracy_table.h"
+
+namespace glintmark {
+namespace {
+
+constexpr int kLobeCounts[] = {1, 2, 4, 6, 8};
+constexpr int kProbeCounts[] = {1, 2, 4, 8, 16};
+constexpr int kIterations[] = {1, 2, 4, 8, 16};
+constexpr int kFitReps = 3;
+constexpr int kSupersamples[] = {1, 4, 16, 64};
+constexpr SampledTruthSettings kTruth = {PrincipalMetric::kColourError, 480, 256};
+
+struct Rival {
+  const char* name;
+  NormalMethod method;
+};
+constexpr Rival kRivals[] = {{"toksvig", NormalMethod::kToksvig},
+                             {"lean", NormalMethod::kLean},
+                             {"fournier", NormalMethod::kFournier},
+                             {"mip", NormalMethod::kMip},
+                             {"fixed", NormalMethod::kFixed}};
+
+std::vector<AccuracySetting> settings() {
+  const int default_lobes = 4, default_probes = ShadingOptions{}.anisotropy,
+            default_iterations = MixtureOptions{}.max_iterations;
+  std::vector<AccuracySetting> all;
+  const auto add = [&](const std::string& name, bool is_default,
+                       std::function<void(ShadingOptions&)> apply) {
+    all.push_back({name, std::move(apply), is_default ? kAccuracyDefault : kAccuracyKnob});
+  };
+  for (const int lobes : kLobeCounts)
+    add(fmt::format("lobes={}", lobes), lobes == default_lobes,
+        [lobes](ShadingOptions& o) { o.lobes = lobes; });
+  for (const MixtureOrder order :
+       {MixtureOrder::kColours, MixtureOrder::kScanline, MixtureOrder::kIndependent})
+    add(fmt::format("alignment={}", mixtureOrderName(order)),
+        order == ShadingOptions{}.mixture_order,
+        [order](ShadingOptions& o) { o.mixture_order = order; });
+  for (const int probes : kProbeCounts)
+    add(fmt::format("probes={}", probes), probes == default_probes,
+        [probes](ShadingOptions& o) { o.anisotropy = probes; });
+  for (const bool half : {false, true})
+    add(half ? "texels=half" : "texels=float", !half,
+        [half](ShadingOptions& o) { o.half_texels = half; });
+  for (const int iterations : kIterations)
+    add(fmt::format("fit_iterations={}", iterations), iterations == default_iterations,
+        [iterations](ShadingOptions& o) { o.mixture_iterations = iterations; });
+  for (const Rival& rival : kRivals)
+    all.push_back({fmt::format("method={}", rival.name),
+                   [method = rival.method](ShadingOptions& o) { o.normal_method = method; },
+                   kAccuracyRival});
+  for (const int samples : kSupersamples)
+    all.push_back({fmt::format("supersamples={}", samples), {}, kAccuracyRival, samples});
+  return all;
+}
+
+// The normal map of the scene's first material that has one.
+const NormalMapSource& normalMapOf(const Scene& scene) {
+  const auto found = std::ranges::find_if(
+      scene.materials, [](const Material& material) { return material.normal_map.has_value(); });
+  if (found == scene.materials.end()) throw Error("no material of the scene has a normal map");
+  return *found->normal_map;
+}
+
+class GmmSweep : public SampledSweep {
+ public:
+  using SampledSweep::SampledSweep;
+
+ protected:
+  // Of knobs that the fit knows.
+  std::vector<double> fitRatios(const AccuracyStage& stage,
+                                const AccuracySetting& setting) const override {
+    if (setting.role == kAccuracyDefault) return {1};
+    const std::string knob = knobOf(setting.name);
+    if (knob != "lobes" && knob != "alignment" && knob != "fit_iterations") return {};
+    const NormalMapSource& source = normalMapOf(stage.scene());
+    ShadingOptions options = stage.options();
+    const int threads = stage.run().session().common.threads;
+    const auto fit = [&] {
+      const int lobes = options.lobes > 0 ? options.lobes : source.lobes;
+      MixtureOptions fit_options =
+          mixtureOptions(lobes, options.mixture_order, options.mixture_iterations);
+      fit_options.threads = threads;
+      return fitNormalMixtures(*source.map, fit_options).fit_ms;
+    };
+    const ShadingOptions standard = options;
+    std::vector<double> ratios;
+    for (int rep = 0; rep < kFitReps; ++rep) {
+      options = standard;
+      const double standard_ms = fit();
+      setting.apply(options);
+      ratios.push_back(fit() / standard_ms);
+    }
+    return ratios;
+  }
+};
+
+}  // namespace
+
+AccuracyKind gmmAccuracy() {
+  return {"gmm",
+          knobsOf(settings()),
+          {"disk/near", "disk/far", "disk/oblique", "armour/near", "armour/far", "desert/near",
+           "desert/far"},
+          {"disk/far", "disk/oblique", "armour/far", "desert/far"},
+          [](BenchRun& run, const std::vector<std::string>& scenes) {
+            return std::unique_ptr<AccuracyEffect>(
+                std::make_unique<GmmSweep>(run, "gmm", scenes, settings(), kTruth));
+          }};
+}
+
+}  // namespace glintmark

@@ -1,0 +1,172 @@
+#include "host/experiment/accuracy/accuracy_sweep.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/core/error.h"
+#include "host/experiment/tao21/tao21_view.h"
+#include "host/report/accuracy_table.h"
+
+namespace glintmark {
+namespace {
+
+constexpr double kMsPerNs = 1e-6;
+// Frames are timed again until they have taken this long; sampled ones at most --reps times.
+constexpr double kLeastTime_ms = 600;
+constexpr int kMostRounds = 101;
+
+// Geometric means over stages, repetition by repetition, as many as each has.
+AccuracyTimes meanTimes(const std::vector<AccuracyTimes>& stages) {
+  AccuracyTimes mean =
+      *std::ranges::min_element(stages, {}, [](const AccuracyTimes& one) { return one.ms.size(); });
+  const auto share = 1 / static_cast<double>(stages.size());
+  const auto take = [&](std::vector<double> AccuracyTimes::*member) {
+    for (std::size_t rep = 0; rep < (mean.*member).size(); ++rep) {
+      double sum = 0;
+      for (const AccuracyTimes& one : stages) sum += std::log((one.*member)[rep]);
+      (mean.*member)[rep] = std::exp(share * sum);
+    }
+  };
+  take(&AccuracyTimes::ratio);
+  take(&AccuracyTimes::ms);
+  return mean;
+}
+
+}  // namespace
+
+AccuracyTimes timesInTurn(FrameRenderer& standard, FrameRenderer& setting, int reps) {
+  // Short frames are repeated, so that no passing disturbance lasts through half of them.
+  const double pair_ms = shadeMs(standard) + shadeMs(setting);
+  const int rounds =
+      std::max(reps, static_cast<int>(std::min<double>(kMostRounds, kLeastTime_ms / pair_ms)));
+  AccuracyTimes times;
+  for (int round = 0; round < rounds; ++round) {
+    const double standard_ms = shadeMs(standard);
+    times.ms.push_back(shadeMs(setting));
+    times.ratio.push_back(times.ms.back() / standard_ms);
+  }
+  return times;
+}
+
+std::vector<std::string> knobsOf(const std::vector<AccuracySetting>& settings) {
+  std::vector<std::string> knobs;
+  for (const AccuracySetting& setting : settings)
+    if (const std::string knob = knobOf(setting.name); knobs.empty() || knobs.back() != knob)
+      knobs.push_back(knob);
+  return knobs;
+}
+
+AccuracyStage::AccuracyStage(BenchRun& run, const std::string& name)
+    : run_(run),
+      name_(name),
+      scene_(openScene(run.session().common, name.substr(0, name.find('/')))),
+      view_(scene_.view(name.substr(name.find('/') + 1))),
+      textures_(std::make_shared<NormalTextures>(run.device())) {}
+
+ShadingOptions AccuracyStage::options() const {
+  const ImageSize size = parseSize(run_.options().size);
+  return {.width_px = size.width_px, .height_px = size.height_px, .lanes = run_.info().width};
+}
+
+std::unique_ptr<FrameRenderer> AccuracyStage::unprepared(const ShadingOptions& options) const {
+  return std::make_unique<FrameRenderer>(run_.device(), scene_, view_, options,
+                                         run_.session().common.threads, textures_);
+}
+
+std::unique_ptr<FrameRenderer> AccuracyStage::renderer(const ShadingOptions& options,
+                                                       const View* view, const Scene* scene) const {
+  stopIfInterrupted();
+  auto renderer = std::make_unique<FrameRenderer>(run_.device(), scene == nullptr ? scene_ : *scene,
+                                                  view == nullptr ? view_ : *view, options,
+                                                  run_.session().common.threads, textures_);
+  renderer->prepare();
+  renderer->shade();
+  return renderer;
+}
+
+AccuracySweep::AccuracySweep(BenchRun& run, std::string effect,
+                             const std::vector<std::string>& scenes,
+                             std::vector<AccuracySetting> settings, AccuracyNotes notes)
+    : run_(run),
+      effect_(std::move(effect)),
+      scenes_(scenes),
+      settings_(std::move(settings)),
+      notes_(std::move(notes)) {}
+
+std::vector<std::string> AccuracySweep::cases() const {
+  std::vector<std::string> cases;
+  for (const AccuracySetting& setting : settings_) cases.push_back(effect_ + "/" + setting.name);
+  return cases;
+}
+
+std::vector<AccuracyStage>& AccuracySweep::stages() {
+  if (stages_.empty()) {
+    for (const std::string& scene : scenes_) stages_.emplace_back(run_, scene);
+    for (const AccuracyStage& stage : stages_)
+      standards_.push_back(stage.renderer(stage.options()));
+  }
+  return stages_;
+}
+
+AccuracyTimes AccuracySweep::measureTimes(const AccuracySetting& setting) {
+  std::vector<AccuracyTimes> times(stages().size());
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    if (setting.role == kAccuracyDefault) {
+      times[i].ms = timesInTurn(*standards_[i], *standards_[i], run_.options().reps).ms;
+      times[i].ratio.assign(times[i].ms.size(), 1);
+      continue;
+    }
+    ShadingOptions options = stages_[i].options();
+    setting.apply(options);
+    times[i] = timesInTurn(*standards_[i], *stages_[i].renderer(options), run_.options().reps);
+  }
+  return meanTimes(times);
+}
+
+AccuracyTimes AccuracySweep::measureSampledTimes(const AccuracySetting& setting) {
+  std::vector<AccuracyTimes> times(stages().size());
+  const auto samples = static_cast<std::uint32_t>(setting.samples);
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    ShadingOptions options = stages_[i].options();
+    options.truth = true;
+    const auto sampled = stages_[i].unprepared(options);
+    sampled->prepare();
+    sampled->addTruthSamples(0, 1);  // compiles
+    double spent_ms = 0;
+    for (int rep = 0; rep < run_.options().reps && (rep == 0 || spent_ms < kLeastTime_ms); ++rep) {
+      const double standard_ms = shadeMs(*standards_[i]);
+      times[i].ms.push_back(sampled->addTruthSamples(0, samples).shading_event_ns * kMsPerNs);
+      times[i].ratio.push_back(times[i].ms.back() / standard_ms);
+      spent_ms += times[i].ms.back();
+    }
+  }
+  return meanTimes(times);
+}
+
+AccuracySweep::Measured AccuracySweep::measureSetting(const AccuracySetting& setting) {
+  std::vector<AccuracyFigures> figures_of_stages;
+  for (std::size_t i = 0; i < stages().size(); ++i) {
+    stopIfInterrupted();
+    figures_of_stages.push_back(figures(i, stages_[i], setting));
+  }
+  Measured measured = {meanFigures(figures_of_stages),
+                       setting.samples > 0 ? measureSampledTimes(setting) : measureTimes(setting)};
+  measured.times.fit_ratio = fitRatios(stages_.front(), setting);
+  return measured;
+}
+
+std::vector<Record> AccuracySweep::measure(const std::string& case_name) {
+  const auto setting = std::ranges::find_if(
+      settings_, [&](const AccuracySetting& one) { return effect_ + "/" + one.name == case_name; });
+  if (setting == settings_.end()) throw Error(fmt::format("no case {}", case_name));
+  const bool is_default = setting->role == kAccuracyDefault;
+  if (is_default && !default_) default_ = measureSetting(*setting);
+  const Measured measured = is_default ? *default_ : measureSetting(*setting);
+  AccuracyNotes notes = notes_;
+  if (is_default) notes.time = "the default itself, measured once for all knobs";
+  return accuracyRecords(run_, case_name, setting->role, measured.figures, measured.times, notes);
+}
+
+}  // namespace glintmark

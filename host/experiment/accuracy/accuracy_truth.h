@@ -1,0 +1,45 @@
+// Sweeps that are held against a supersampled ground truth: area lights and normal maps.
+#pragma once
+#include "host/experiment/accuracy/accuracy_sweep.h"
+
+namespace glintmark {
+
+/// Which metric of frames is the principal one.
+enum class PrincipalMetric { kRelMse, kColourError };
+
+struct SampledTruthSettings {
+  PrincipalMetric metric = PrincipalMetric::kRelMse;
+  int width_px = 320;  // of the truth and of errors, at most; the height follows
+  int spp = 1024;
+};
+
+/// "relMSE at 320x180 against 1024 samples a pixel, mean over area_knot/middle, ..."
+std::string sampledTruthNote(const BenchRun& run, const SampledTruthSettings& settings,
+                             const std::vector<std::string>& scenes);
+
+class SampledSweep : public AccuracySweep {
+ public:
+  SampledSweep(BenchRun& run, const std::string& effect, const std::vector<std::string>& scenes,
+               std::vector<AccuracySetting> settings, const SampledTruthSettings& truth);
+
+ protected:
+  AccuracyFigures figures(std::size_t index, const AccuracyStage& stage,
+                          const AccuracySetting& setting) override;
+
+ private:
+  struct Truth {
+    Image row;                  // linear, covered pixels
+    double standard_error = 0;  // in the principal metric
+    bool sane = false;
+  };
+  const Truth& truth(std::size_t index, const AccuracyStage& stage);
+  // The defaults at the truth's size.
+  ShadingOptions truthOptions(const AccuracyStage& stage) const;
+  // The frame by a setting: shaded, or sampled by samples that the truth has not used.
+  Image image(const AccuracyStage& stage, const AccuracySetting& setting) const;
+
+  SampledTruthSettings settings_;
+  std::map<std::size_t, Truth> truths_;
+};
+
+}  // namespace glintmark

@@ -1,0 +1,183 @@
+#include "host/experiment/bench_run.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "host/core/atomic_file.h"
+#include "host/core/error.h"
+#include "host/core/progress.h"
+#include "host/core/trace.h"
+#include "host/experiment/interrupt.h"
+#include "host/frame/shading_options.h"
+#include "host/report/record/records.h"
+
+namespace glintmark {
+namespace {
+
+std::map<std::string, std::string> measurementKey(const CommonOptions& common,
+                                                  const BenchOptions& options, int lanes) {
+  std::map<std::string, std::string> key = {{"size", options.size},
+                                            {"method", options.method},
+                                            {"reps", std::to_string(options.reps)},
+                                            {"width", std::to_string(lanes)}};
+  key.insert(options.more_key.begin(), options.more_key.end());
+  if (!common.overrides.empty()) key["set"] = fmt::format("{}", fmt::join(common.overrides, " "));
+  if (!common.mesh_file.empty()) key["mesh"] = common.mesh_file;
+  if (!common.asset_folder.empty()) key["assets"] = common.asset_folder;
+  return key;
+}
+
+// The folder, once it is known that the results can be written.
+std::filesystem::path checkedFolder(const BenchOptions& options) {
+  parseSize(options.size);
+  parseMethod(options.method);
+  if (options.reps < 1 || options.reps > 10000)
+    throw Error(fmt::format("--reps {} is not from 1 to 10000", options.reps));
+  requireWritableFolder(options.folder);
+  for (const std::string& file : {options.json, options.csv}) {
+    if (!file.empty()) requireWritableFile(file);
+  }
+  return options.folder;
+}
+
+RunInfo describeRunWithPeaks(const Session& session, Device& device, ProgramCache& cache) {
+  RunInfo info = describeRun(session, device);
+  const DevicePeaks peaks = measurePeaks(device, cache, info.width);
+  info.peak_gflops = peaks.gflops;
+  info.peak_gbs = peaks.gbs;
+  return info;
+}
+
+RecordLog openLog(const BenchOptions& options, const RunInfo& info) {
+  const std::filesystem::path file = std::filesystem::path(options.folder) / "records.jsonl";
+  return options.resume ? RecordLog::resume(file, info) : RecordLog::create(file, info);
+}
+
+}  // namespace
+
+BenchRun::BenchRun(const Session& session, const BenchOptions& options)
+    : session_(session),
+      options_(options),
+      device_(openDevice(session.common)),
+      folder_(checkedFolder(options)),
+      lock_(folder_),
+      cache_(device_),
+      info_(describeRunWithPeaks(session, device_, cache_)),
+      key_(measurementKey(session.common, options, info_.width)),
+      log_(openLog(options, info_)) {
+  removeAbandonedFiles(folder_);
+}
+
+std::vector<Record> BenchRun::loggedCase(const std::string& table, const std::string& case_name,
+                                         const std::vector<std::string>& metrics) const {
+  std::vector<Record> records = log_.recordsOf(table, case_name, key_);
+  const bool whole = std::ranges::all_of(metrics, [&](const std::string& metric) {
+    return std::ranges::find(records, metric, &Record::metric) != records.end();
+  });
+  return whole ? records : std::vector<Record>();
+}
+
+void BenchRun::measureCases(const std::string& table, const std::vector<std::string>& cases,
+                            const std::vector<std::string>& metrics,
+                            const std::function<std::vector<Record>(const std::string&)>& measure) {
+  Progress progress(session_.common.quiet);
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    progress.show(static_cast<int>(i), static_cast<int>(cases.size()), table + " " + cases[i]);
+    std::vector<Record> measured = loggedCase(table, cases[i], metrics);
+    if (measured.empty()) {
+      const auto kept = [&] {
+        return Interrupted(fmt::format(
+            "interrupted; {} of {} cases of table {} are kept in {}, --resume carries on", i,
+            cases.size(), table, (folder_ / "records.jsonl").string()));
+      };
+      try {
+        stopIfInterrupted();
+        const TraceScope scope("case", isTracing() ? table + "/" + cases[i] : std::string());
+        measured = measure(cases[i]);
+      } catch (const Interrupted&) {
+        throw kept();
+      } catch (const Error&) {
+        // A compiler inside the OpenCL runtime may drop its files at Ctrl-C: no fault of the
+        // kernel.
+        if (InterruptGuard::interrupted()) throw kept();
+        throw;
+      }
+      log_.append(measured);
+    }
+    records_.insert(records_.end(), measured.begin(), measured.end());
+  }
+}
+
+void BenchRun::addDerived(const std::vector<Record>& derived) {
+  for (const Record& record : derived) {
+    const auto last = std::find_if(records_.rbegin(), records_.rend(), [&](const Record& other) {
+      return other.table == record.table && other.case_ == record.case_;
+    });
+    records_.insert(last.base(), record);
+  }
+}
+
+Record BenchRun::record(const std::string& table, const std::string& case_name,
+                        const std::string& metric, const std::string& unit,
+                        const std::vector<double>& samples, const std::string& note) const {
+  Record record;
+  record.table = table;
+  record.case_ = case_name;
+  record.metric = metric;
+  record.unit = unit;
+  record.value = summarize(samples);
+  record.note = note;
+  record.config = key_;
+  return record;
+}
+
+std::vector<Record> BenchRun::recordsOf(const std::string& table) const {
+  std::vector<Record> chosen;
+  std::ranges::copy_if(records_, std::back_inserter(chosen),
+                       [&](const Record& record) { return record.table == table; });
+  return chosen;
+}
+
+int BenchRun::finish(const std::string& text) const {
+  const std::string json = toJson({info_, records_}), csv = toCsv(records_);
+  try {
+    writeFile(folder_ / "results.json", json);
+    writeFile(folder_ / "results.csv", csv);
+    writeFile(folder_ / "table.txt", text);
+    if (!options_.json.empty()) writeFile(options_.json, json);
+    if (!options_.csv.empty()) writeFile(options_.csv, csv);
+  } catch (const Error& error) {
+    throw Error(fmt::format("{}; all records are in {}, --resume writes the files from them",
+                            error.what(), (folder_ / "records.jsonl").string()));
+  }
+  fmt::print("{}\nwritten to {}\n", text, folder_.string());
+  return std::ranges::all_of(records_, &Record::valid) ? kExitDone : kExitCheckFailed;
+}
+
+std::vector<std::string> selectNames(const std::vector<std::string>& known,
+                                     const std::vector<std::string>& chosen) {
+  if (chosen.empty()) return known;
+  std::vector<std::string> names;
+  std::ranges::copy_if(known, std::back_inserter(names), [&](const std::string& name) {
+    return std::ranges::find(chosen, name) != chosen.end();
+  });
+  return names;
+}
+
+std::string invalidText(std::span<const Record> records) {
+  std::string text, last_case;
+  for (const Record& record : records) {
+    if (record.valid || record.case_ == last_case) continue;
+    text += fmt::format("{} {:.75}\n", record.case_, record.note);
+    last_case = record.case_;
+  }
+  return text;
+}
+
+void stopIfInterrupted() {
+  if (InterruptGuard::interrupted()) throw Interrupted("interrupted");
+}
+
+}  // namespace glintmark

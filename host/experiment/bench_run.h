@@ -1,0 +1,110 @@
+// One `bench` command: the device, the options, the log, and the cases that it measures.
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "host/experiment/session.h"
+#include "host/ocl/compute.h"
+#include "host/report/record/folder_lock.h"
+#include "host/report/record/record.h"
+#include "host/report/record/record_log.h"
+
+namespace glintmark {
+
+struct BenchOptions {
+  std::vector<std::string> scenes, views;  // empty: all
+  std::string size = "1920x1080", method = "zk16";
+  int reps = 9;
+  std::string folder = "results/latest";
+  std::string json, csv;  // further copies, empty for none
+  std::string trace;      // file for the run's intervals, empty for none
+  bool resume = false;
+  std::uint64_t rays = 0;  // most rays of a simulation, where a command has simulations
+  std::map<std::string, std::string> more_key{};  // further entries of BenchRun::key()
+};
+
+/// What a table measures and prints. Cases are measured in order, each once.
+class BenchRun {
+ public:
+  /// Checks the options, the folder and the files, opens the device, locks the folder, measures the
+  /// device's peaks and opens the log. Throws Error for whatever is wrong with them.
+  BenchRun(const Session& session, const BenchOptions& options);
+
+  const Session& session() const { return session_; }
+  const BenchOptions& options() const { return options_; }
+  const std::filesystem::path& folder() const { return folder_; }
+  Device& device() { return device_; }
+  ProgramCache& cache() { return cache_; }
+  const RunInfo& info() const { return info_; }
+
+  /// Options of the command line that tell one measurement of a case from another; every record's
+  /// configuration starts from them.
+  const std::map<std::string, std::string>& key() const { return key_; }
+
+  /// Measures the cases that the log does not hold whole (a record of each of `metrics`, measured
+  /// with the same key), shows progress, and logs each as soon as it is there. Records of both
+  /// kinds are kept in the order of `cases`. After Ctrl-C throws Interrupted, which says what is
+  /// kept.
+  void measureCases(
+      const std::string& table, const std::vector<std::string>& cases,
+      const std::vector<std::string>& metrics,
+      const std::function<std::vector<Record>(const std::string& case_name)>& measure);
+
+  /// Adds records that follow from measured ones, each behind the last record of its case. They are
+  /// not logged: a resumed run makes them anew.
+  void addDerived(const std::vector<Record>& derived);
+
+  /// A record of `table` with the key as its configuration; `samples` not empty.
+  Record record(const std::string& table, const std::string& case_name, const std::string& metric,
+                const std::string& unit, const std::vector<double>& samples,
+                const std::string& note = "") const;
+
+  /// Records of this run, of one table or of all, in order.
+  std::vector<Record> recordsOf(const std::string& table) const;
+  const std::vector<Record>& records() const { return records_; }
+
+  /// Writes results.json, results.csv, table.txt and the copies asked for, and prints `text`.
+  /// Returns kExitCheckFailed if some record is not valid. Throws Error if a file cannot be
+  /// written; the log has all records then.
+  int finish(const std::string& text) const;
+
+ private:
+  std::vector<Record> loggedCase(const std::string& table, const std::string& case_name,
+                                 const std::vector<std::string>& metrics) const;
+
+  const Session& session_;
+  const BenchOptions& options_;
+  Device device_;
+  std::filesystem::path folder_;  // made only once there is a device
+  FolderLock lock_;
+  ProgramCache cache_;
+  RunInfo info_;
+  std::map<std::string, std::string> key_;
+  RecordLog log_;
+  std::vector<Record> records_;
+};
+
+/// One of the tables that `bench` knows.
+struct BenchTable {
+  std::string name;
+  std::vector<std::string> scenes, views;  // what --scene and --view may name
+  void (*measure)(BenchRun& run);
+  std::string (*text)(const BenchRun& run);  // at most kTableColumnsLimit columns
+};
+
+/// Names among `known` that `chosen` names, in the order of `known`; all if `chosen` is empty.
+std::vector<std::string> selectNames(const std::vector<std::string>& known,
+                                     const std::vector<std::string>& chosen);
+
+/// "zk16/snow/steep not valid: why", one line per case with a record that is not valid.
+std::string invalidText(std::span<const Record> records);
+
+/// Throws Interrupted if Ctrl-C was pressed; for use between repetitions.
+void stopIfInterrupted();
+
+}  // namespace glintmark

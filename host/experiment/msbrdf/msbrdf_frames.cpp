@@ -1,0 +1,238 @@
+// Frames with multiple scattering: furnace of metals, cost, pictures.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+
+#include "host/core/stopwatch.h"
+#include "host/experiment/msbrdf/msbrdf_cases.h"
+#include "host/experiment/msbrdf/msbrdf_table.h"
+#include "host/experiment/tao21/tao21_view.h"
+#include "host/frame/frame_renderer.h"
+#include "host/frame/white_furnace.h"
+#include "host/reference/microfacet.h"
+#include "host/report/picture/picture_strip.h"
+#include "host/report/picture/tonemap.h"
+
+namespace glintmark {
+namespace {
+
+using Samples = std::vector<double>;
+
+constexpr int kMostSimulations = 5;
+constexpr double kFurnaceCosines[] = {0.1, 0.2, 0.4, 0.6, 0.8, 1.0};
+// Furnace by the kernels against the integral of the lobe: 1024 lights and single precision.
+constexpr double kFurnaceTolerance = 0.01;
+constexpr double kMostFurnace = 1.005;
+
+// The scene with one change to all of its materials, prepared and shaded once.
+class ChangedFrame {
+ public:
+  ChangedFrame(BenchRun& run, Scene scene, const std::function<void(Material&)>& change,
+               const ShadingOptions& options)
+      : scene_(std::move(scene)) {
+    for (Material& material : scene_.materials) change(material);
+    renderer_.emplace(run.device(), scene_, scene_.views.front(), options);
+    renderer_->prepare();
+    renderer_->shade();
+  }
+  FrameRenderer& renderer() { return *renderer_; }
+
+ private:
+  Scene scene_;
+  std::optional<FrameRenderer> renderer_;
+};
+
+ShadingOptions benchOptions(const BenchRun& run, int lanes) {
+  const ImageSize size = parseSize(run.options().size);
+  return {.width_px = size.width_px, .height_px = size.height_px, .lanes = lanes};
+}
+
+// `combine` of the two frames' milliseconds, in turn.
+template <typename Combine>
+Samples measureInTurn(BenchRun& run, ChangedFrame& a, ChangedFrame& b, const Combine& combine) {
+  Samples samples;
+  for (int rep = 0; rep < run.options().reps; ++rep) {
+    const double a_ms = shadeMs(a.renderer());
+    samples.push_back(combine(a_ms, shadeMs(b.renderer())));
+  }
+  return samples;
+}
+
+void setLambert(Material& material) {
+  material.diffuse_model = DiffuseModel::kLambert;
+  material.compensation = Compensation::kOff;
+}
+
+// Milliseconds of the shading kernels with the change minus Lambert's without any; whether both
+// pictures are finite and not negative.
+std::pair<Samples, bool> measureChange(BenchRun& run, const Scene& scene,
+                                       const std::function<void(Material&)>& change) {
+  const ShadingOptions options = benchOptions(run, run.info().width);
+  ChangedFrame with(run, scene, change, options), without(run, scene, setLambert, options);
+  Samples samples = measureInTurn(run, with, without, std::minus<>());
+  return {samples,
+          isSane(with.renderer().readRadiance()) && isSane(without.renderer().readRadiance())};
+}
+
+void addRuntimes(BenchRun& run, const Scene& scene, MsbrdfCase& result) {
+  const auto add = [&](const char* metric, const std::function<void(Material&)>& change,
+                       const char* note) {
+    const auto [samples, sane] = measureChange(run, scene, change);
+    result.add(metric, "ms", samples, sane,
+               sane ? note : "not valid: radiance is negative or not finite");
+  };
+  const auto model = [](DiffuseModel chosen) {
+    return [chosen](Material& material) { material.diffuse_model = chosen; };
+  };
+  add("runtime_ms", model(DiffuseModel::kRefit),
+      "kernel events with the refit minus Lambert's, in turn");
+  add("runtime_published_ms", model(DiffuseModel::kPublished), "");
+  add("runtime_eon_ms", model(DiffuseModel::kEon), "");
+  add(
+      "runtime_masking_ms",
+      [](Material& material) {
+        material.diffuse_model = DiffuseModel::kRefit;
+        material.diffuse_masking = 0.5;
+      },
+      "refit with masking and shadowing");
+  add(
+      "runtime_compensation_ms",
+      [](Material& material) {
+        setLambert(material);
+        material.compensation = Compensation::kLobe;
+      },
+      "a metal's albedo scaling alone");
+}
+
+// One lane's time over that of all lanes; valid if both give the same bits.
+void addSpeedup(BenchRun& run, const Scene& scene, MsbrdfCase& result) {
+  const auto refit = [](Material& material) { material.diffuse_model = DiffuseModel::kRefit; };
+  ChangedFrame narrow(run, scene, refit, benchOptions(run, 1));
+  ChangedFrame wide(run, scene, refit, benchOptions(run, run.info().width));
+  const Samples samples = measureInTurn(run, narrow, wide, std::divides<>());
+  const bool same =
+      narrow.renderer().readRadiance().pixels == wide.renderer().readRadiance().pixels;
+  result.add("speedup_vs_w1", "1", samples, same,
+             same ? "kernel events of the frame with the refit, in turn"
+                  : "not valid: one lane gives another picture");
+  Samples off_ms;
+  ChangedFrame lambert(run, scene, setLambert, benchOptions(run, run.info().width));
+  for (int rep = 0; rep < run.options().reps; ++rep) off_ms.push_back(shadeMs(lambert.renderer()));
+  result.add("lambert_ms", "ms", off_ms, true, "kernel events of the frame with the effect off");
+}
+
+// Milliseconds that 500 million rays of four orders would take, scaled up from fewer.
+Samples measureSimulation(BenchRun& run) {
+  Simulator simulator(run.device(), run.cache(), run.info().width);
+  SimulationSettings settings = diffuseSettings(0.8, 45, 4, 1);
+  simulator.run(settings);  // builds the kernels
+  settings.rays = kMsbrdfSurfaceRays;
+  Samples samples;
+  for (int rep = 0; rep < std::min(run.options().reps, kMostSimulations); ++rep) {
+    stopIfInterrupted();
+    const Stopwatch watch;
+    simulator.run(settings);
+    samples.push_back(watch.elapsedNs() * 1e-6 * kPat18Rays / static_cast<double>(settings.rays));
+  }
+  return samples;
+}
+
+double measureFit(BenchRun& run) {
+  Simulator simulator(run.device(), run.cache(), run.info().width);
+  std::vector<LobeData> data;
+  for (const double alpha : kMsbrdfAlphas)
+    for (const int incidence_deg : kMsbrdfThetas_deg) {
+      stopIfInterrupted();
+      const Simulation s =
+          simulator.run(diffuseSettings(alpha, incidence_deg, 4, kMsbrdfModelRays / 8));
+      data.push_back(makeLobeData(s, 2));
+      data.push_back(makeLobeData(s, 3));
+    }
+  const Stopwatch watch;
+  fitPolynomials(data);
+  return watch.elapsedNs() * 1e-6;
+}
+
+}  // namespace
+
+std::vector<Record> measureMetal(BenchRun& run, const std::string& name) {
+  const double alpha = numberIn(name, "alpha");
+  Material mirror;
+  mirror.name = "mirror";
+  mirror.has_glints = false;
+  mirror.glint.alpha_g =
+      mirror.glint.alpha_l = {static_cast<float>(alpha), static_cast<float>(alpha)};
+  mirror.glint.f0 = {1, 1, 1, 0};
+  mirror.glint.intensity = 1;
+  constexpr std::pair<Compensation, const char*> kWays[] = {
+      {Compensation::kOff, "furnace_before"},
+      {Compensation::kLobe, "furnace_after"},
+      {Compensation::kSimulated, "furnace_after_simulated"}};
+  MsbrdfCase result(run, name);
+  for (const auto& [way, metric] : kWays) {
+    mirror.compensation = way;
+    Samples samples;
+    bool valid = true;
+    for (const double mu : kFurnaceCosines) {
+      stopIfInterrupted();
+      samples.push_back(whiteFurnace(run.device(), mirror, mu));
+      const double lobe = reference::microfacetAlbedo(reference::Ndf::kBeckmann, mu, alpha,
+                                                      reference::SmithForm::kRational);
+      if (way == Compensation::kOff)
+        valid = valid && std::abs(samples.back() - lobe) < kFurnaceTolerance;
+      valid = valid && samples.back() <= kMostFurnace;
+    }
+    result.add(metric, "1", samples, valid,
+               valid ? "over view cosines 0.1 to 1"
+                     : "not valid: not the lobe's integral, or more than came in");
+  }
+  return result.take();
+}
+
+std::vector<Record> measureMsbrdfCost(BenchRun& run) {
+  MsbrdfCase result(run, "all");
+  const Scene scene = openScene(run.session().common, "rough_plane");
+  addRuntimes(run, scene, result);
+  addSpeedup(run, scene, result);
+  result.add("fit_ms", "ms", {measureFit(run)}, true, "polynomials to 48 lobes");
+  Samples simulation_ms = measureSimulation(run);
+  const double peak_gflops = measurePeaks(run.device(), run.cache(), run.info().width).gflops;
+  result.add("simulate_500m_ms", "ms", simulation_ms, true,
+             fmt::format("scaled up from {} rays", kMsbrdfSurfaceRays));
+  for (double& sample : simulation_ms) sample *= peak_gflops / (kPat18Ms * kPat18PeakGflops);
+  result.add("normalised_cost", "1", simulation_ms);
+  return result.take();
+}
+
+Image sweepPicture(BenchRun& run) {
+  constexpr std::pair<DiffuseModel, const char*> kRows[] = {{DiffuseModel::kLambert, "Lambert"},
+                                                            {DiffuseModel::kPublished, "published"},
+                                                            {DiffuseModel::kRefit, "refit"},
+                                                            {DiffuseModel::kEon, "EON"}};
+  const Scene scene = openScene(run.session().common, "rough_knot");
+  const ShadingOptions options{.width_px = 200, .height_px = 160, .lanes = run.info().width};
+  std::vector<Image> rows;
+  for (const auto& [model, name] : kRows) {
+    std::vector<std::pair<std::string, Image>> strip;
+    for (const double alpha : {0.1, 0.3, 0.5, 0.75, 1.0}) {
+      const DiffuseModel chosen = model;
+      ChangedFrame frame(
+          run, scene,
+          [chosen, alpha](Material& material) {
+            material.diffuse_model = chosen;
+            material.diffuse_roughness = alpha;
+          },
+          options);
+      strip.emplace_back(
+          fmt::format("{} {}", name, alpha),
+          toneMap(frame.renderer().readRadiance(), {.exposure = scene.post.exposure}));
+    }
+    rows.push_back(pictureStrip(strip));
+  }
+  return pictureColumn(rows);
+}
+
+}  // namespace glintmark

@@ -1,0 +1,52 @@
+// What every measurement needs of the program around it: the common options, the device, a scene.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "host/ocl/device.h"
+#include "host/report/record/record.h"
+#include "host/scene/load_scene.h"
+
+namespace glintmark {
+
+/// Options that stand before or after any subcommand.
+struct CommonOptions {
+  std::string device;  // index or name substring
+  int lanes = 0;       // --width; 0: from the device
+  int threads = 0;     // of the rasterizer; 0: all cores
+  std::vector<std::string> overrides;
+  std::string mesh_file, asset_folder;
+  bool quiet = false;
+};
+
+/// What one call of the program was asked for, whatever its subcommand.
+struct Session {
+  CommonOptions common;
+  std::vector<const char*> words;  // argv, for the record of the run
+};
+
+struct ImageSize {
+  int width_px = 1920, height_px = 1080;
+};
+/// Reads "WIDTHxHEIGHT". Throws Error if it is malformed, outside 1..16384, or would need more
+/// memory than there is.
+ImageSize parseSize(const std::string& text);
+
+/// Opens the chosen device. Throws Error for a width that kernels do not come in, DeviceError if
+/// there is no such device.
+Device openDevice(const CommonOptions& common);
+
+/// Lanes that kernels will have on `device`.
+int chosenLanes(const CommonOptions& common, const Device& device);
+
+/// Loads a scene with the common options; prints its notes to stderr unless quiet.
+Scene openScene(const CommonOptions& common, const std::string& name);
+
+/// The view of that name, or the scene's first if the name is empty. Throws Error listing the known
+/// ones, or if the scene has no view.
+const View& chosenView(const Scene& scene, const std::string& name);
+
+/// The host's part of RunInfo and the device's, without peaks.
+RunInfo describeRun(const Session& session, const Device& device);
+
+}  // namespace glintmark

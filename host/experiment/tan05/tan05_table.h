@@ -1,0 +1,31 @@
+// The comparisons of [TAN05] with the paper's figures, as text from records of table "tan05".
+#pragma once
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/report/record/record.h"
+
+namespace glintmark {
+
+/// The paper's colour error of a case "scene/view/method", or nothing. [TAN05] Figs. 4, 7 and 8
+std::optional<double> tan05PaperError(std::string_view case_name);
+/// The paper's frames per second at 500x500 on a GeForce 6800 GT, or nothing. [TAN05] Sect. 5
+std::optional<double> tan05PaperFps(std::string_view case_name);
+
+/// Factors on a view's distance at which errors are taken, as the cases name them: "near_8".
+inline constexpr int kTan05Distances[] = {1, 2, 4, 8, 16, 32, 64};
+
+/// The paper's time for the mixtures of a 512x512 map, four lobes: five minutes [ms].
+inline constexpr double kTan05FitMs = 300000;
+
+/// Views, one line per method, paper's figures beside ours.
+std::string tan05TableText(std::span<const Record> records);
+/// Errors over distance, one column per method.
+std::string tan05DistanceText(std::span<const Record> records);
+/// What holds over all views, and time over the knobs.
+std::string tan05SummaryText(std::span<const Record> records);
+
+}  // namespace glintmark

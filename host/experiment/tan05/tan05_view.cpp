@@ -1,0 +1,232 @@
+#include "host/experiment/tan05/tan05_view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/experiment/tan05/tan05_table.h"
+#include "host/experiment/tao21/tao21_view.h"
+#include "host/frame/ground_truth.h"
+#include "host/report/metrics.h"
+#include "host/report/picture/picture_strip.h"
+#include "host/report/picture/tonemap.h"
+
+namespace glintmark {
+namespace {
+
+constexpr int kPaperSize_px = 500;
+// Of errors without times: distances shrink what is seen, not what it means.
+constexpr double kDifferenceGain = 4;
+
+Image display(const Image& radiance, const Scene& scene) {
+  return toneMap(radiance, {.exposure = scene.post.exposure});
+}
+
+// Display values where `coverage` covers, in one row.
+Image coveredDisplay(const Image& radiance, const Scene& scene) {
+  return display(coveredPixels(radiance), scene);
+}
+
+struct Truth {
+  Image radiance;
+  double standard_error = 0;  // of display values, as a colour error
+};
+
+Truth measureTruth(BenchRun& run, const Tan05Scene& scene, const View& view,
+                   const Tan05Settings& settings) {
+  TruthImages images = renderTruth(
+      run.device(), scene.scene, view, settings.shading, settings.truth_spp,
+      [](int) { stopIfInterrupted(); }, settings.threads, scene.textures);
+  Image off = images.mean;
+  for (std::size_t i = 0; i < off.pixels.size() / 4; ++i)
+    for (std::size_t c = 0; c < 3; ++c)
+      off.pixels[4 * i + c] += images.standard_error.pixels[3 * i + c];
+  const double error =
+      colourError(coveredDisplay(off, scene.scene), coveredDisplay(images.mean, scene.scene));
+  return {std::move(images.mean), error};
+}
+
+std::unique_ptr<FrameRenderer> makeRenderer(BenchRun& run, const Tan05Scene& scene,
+                                            const View& view, const Tan05Settings& settings,
+                                            const Tan05Method& method) {
+  ShadingOptions options = settings.shading;
+  options.normal_method = method.method;
+  options.mixture_order = method.order;
+  return std::make_unique<FrameRenderer>(run.device(), scene.scene, view, options, settings.threads,
+                                         scene.textures);
+}
+
+Image renderFrame(FrameRenderer& renderer) {
+  renderer.prepare();
+  renderer.shade();
+  return renderer.readRadiance();
+}
+
+// The display pictures of a zoom-out by one method, whole frames.
+template <typename Render>
+std::vector<Image> zoomFrames(const Tan05Scene& scene, const View& view, Render render) {
+  std::vector<Image> frames;
+  for (int i = 0; i < kZoomFrames; ++i)
+    frames.push_back(display(render(atDistance(view, std::pow(kZoomStep, i))), scene.scene));
+  return frames;
+}
+
+std::vector<double> frameToFrame(const std::vector<Image>& frames,
+                                 const std::vector<Image>& truth) {
+  std::vector<double> errors;
+  for (std::size_t i = 1; i < frames.size(); ++i)
+    errors.push_back(changeError(frames[i - 1], frames[i], truth[i - 1], truth[i]));
+  return errors;
+}
+
+Image differencePicture(const Image& picture, const Image& truth) {
+  Image difference = picture;
+  for (std::size_t i = 0; i < difference.pixels.size(); ++i)
+    difference.pixels[i] = std::min(
+        1.0f, static_cast<float>(kDifferenceGain) * std::abs(picture.pixels[i] - truth.pixels[i]));
+  return difference;
+}
+
+// Truth, then every method, and after them the differences.
+Image comparison(const std::vector<std::pair<std::string, Image>>& pictures) {
+  std::vector<std::pair<std::string, Image>> all = pictures;
+  for (std::size_t i = 1; i < pictures.size(); ++i)
+    all.emplace_back(fmt::format("|{} - truth| x {}", pictures[i].first, kDifferenceGain),
+                     differencePicture(pictures[i].second, pictures.front().second));
+  return pictureStrip(all);
+}
+
+void addErrors(BenchRun& run, const Scene& scene, const std::string& case_name, const Image& image,
+               const Truth& truth, std::vector<Record>& records) {
+  const double error = isSane(image) ? colourError(coveredDisplay(image, scene),
+                                                   coveredDisplay(truth.radiance, scene))
+                                     : 1;
+  Record record = tan05Record(run, case_name, "colour_error", "1", {error});
+  record.paper = tan05PaperError(case_name);
+  records.push_back(record);
+  records.push_back(tan05Record(run, case_name, "truth_stderr", "1", {truth.standard_error}));
+  if (isSane(image) && truth.standard_error < 1) return;
+  for (Record& bad : records) {
+    bad.valid = false;
+    bad.note = "not valid: radiance values are negative or not finite";
+  }
+}
+
+std::vector<double> inverse(std::vector<double> samples_ms) {
+  for (double& sample : samples_ms) sample = 1000 / sample;
+  return samples_ms;
+}
+
+}  // namespace
+
+const std::vector<Tan05Method>& tan05Methods() {
+  static const std::vector<Tan05Method> methods = {
+      {"gmm", NormalMethod::kGmm},
+      {"unaligned", NormalMethod::kGmm, MixtureOrder::kIndependent},
+      {"toksvig", NormalMethod::kToksvig},
+      {"lean", NormalMethod::kLean},
+      {"fournier", NormalMethod::kFournier},
+      {"mip", NormalMethod::kMip},
+      {"fixed", NormalMethod::kFixed}};
+  return methods;
+}
+
+const std::vector<std::string>& tan05ViewMetrics() {
+  static const std::vector<std::string> metrics = {"shading_ms", "fps", "frame_to_frame_error",
+                                                   "colour_error", "truth_stderr"};
+  return metrics;
+}
+
+const std::vector<std::string>& tan05DistanceMetrics() {
+  static const std::vector<std::string> metrics = {"colour_error", "truth_stderr"};
+  return metrics;
+}
+
+Tan05Settings tan05Settings(const BenchRun& run) {
+  Tan05Settings settings;
+  settings.shading.width_px = settings.shading.height_px = kPaperSize_px;
+  settings.shading.lanes = run.info().width;
+  settings.reps = run.options().reps;
+  settings.threads = run.session().common.threads;
+  return settings;
+}
+
+Tan05Scene::Tan05Scene(BenchRun& run, const std::string& name)
+    : scene(openScene(run.session().common, name)),
+      textures(std::make_shared<NormalTextures>(run.device())) {}
+
+Record tan05Record(const BenchRun& run, const std::string& case_name, const std::string& metric,
+                   const std::string& unit, const std::vector<double>& samples,
+                   const std::string& note) {
+  return run.record("tan05", case_name, metric, unit, samples, note);
+}
+
+View atDistance(const View& view, double factor) {
+  if (!view.orbit) {
+    View moved = view;
+    moved.eye = view.target + (view.eye - view.target) * factor;
+    return moved;
+  }
+  Orbit orbit = *view.orbit;
+  orbit.distance *= factor;
+  return orbitView(view, orbit);
+}
+
+Tan05View measureTan05View(BenchRun& run, const Tan05Scene& scene, const View& view,
+                           const Tan05Settings& settings) {
+  const Truth truth = measureTruth(run, scene, view, settings);
+  const std::vector<Image> truth_zoom = zoomFrames(scene, view, [&](const View& moved) {
+    return measureTruth(run, scene, moved, settings).radiance;
+  });
+  std::vector<std::unique_ptr<FrameRenderer>> renderers;
+  std::vector<Image> images;
+  std::vector<std::pair<std::string, Image>> pictures = {
+      {"truth", display(truth.radiance, scene.scene)}};
+  for (const Tan05Method& method : tan05Methods()) {
+    stopIfInterrupted();
+    renderers.push_back(makeRenderer(run, scene, view, settings, method));
+    images.push_back(renderFrame(*renderers.back()));
+    pictures.emplace_back(method.name, display(images.back(), scene.scene));
+  }
+  std::vector<std::vector<double>> times_ms(renderers.size());
+  for (int rep = 0; rep < settings.reps; ++rep)
+    for (std::size_t m = 0; m < renderers.size(); ++m) {
+      times_ms[m].push_back(shadeMs(*renderers[m]));
+    }
+
+  Tan05View result;
+  for (std::size_t m = 0; m < renderers.size(); ++m) {
+    const Tan05Method& method = tan05Methods()[m];
+    const std::string name = fmt::format("{}/{}/{}", scene.scene.name, view.name, method.name);
+    const std::vector<Image> zoom = zoomFrames(scene, view, [&](const View& moved) {
+      stopIfInterrupted();
+      return renderFrame(*makeRenderer(run, scene, moved, settings, method));
+    });
+    std::vector<Record>& records = result.records[method.name];
+    records.push_back(
+        tan05Record(run, name, "shading_ms", "ms", times_ms[m], "kernel events, methods in turn"));
+    records.push_back(tan05Record(run, name, "fps", "1/s", inverse(times_ms[m]), "at 500x500"));
+    records.back().paper = tan05PaperFps(name);
+    records.push_back(
+        tan05Record(run, name, "frame_to_frame_error", "1", frameToFrame(zoom, truth_zoom)));
+    addErrors(run, scene.scene, name, images[m], truth, records);
+  }
+  result.picture = comparison(pictures);
+  return result;
+}
+
+Tan05View measureTan05Distance(BenchRun& run, const Tan05Scene& scene, const View& view,
+                               const std::string& view_name, const Tan05Settings& settings) {
+  const Truth truth = measureTruth(run, scene, view, settings);
+  Tan05View result;
+  for (const Tan05Method& method : tan05Methods()) {
+    stopIfInterrupted();
+    const auto renderer = makeRenderer(run, scene, view, settings, method);
+    const std::string name = fmt::format("{}/{}/{}", scene.scene.name, view_name, method.name);
+    addErrors(run, scene.scene, name, renderFrame(*renderer), truth, result.records[method.name]);
+  }
+  return result;
+}
+
+}  // namespace glintmark

@@ -1,0 +1,92 @@
+#include "host/experiment/zk16/zk16_bench.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "host/experiment/zk16/zk16_case.h"
+#include "host/experiment/zk16/zk16_table.h"
+#include "host/report/picture/heatmap.h"
+#include "host/report/picture/image_io.h"
+
+namespace glintmark {
+namespace {
+
+constexpr const char* kTable = "zk16";
+
+std::vector<std::string> knownScenes() {
+  std::vector<std::string> scenes;
+  std::ranges::transform(kZk16Table1, std::back_inserter(scenes),
+                         [](const Zk16PaperRow& row) { return std::string(row.scene); });
+  return scenes;
+}
+
+std::vector<std::string> knownViews() {
+  return {kZk16Views.begin(), kZk16Views.end()};
+}
+
+std::vector<Record> measureView(BenchRun& run, const Scene& scene, const std::string& view) {
+  const BenchOptions& options = run.options();
+  const ImageSize size = parseSize(options.size);
+  Zk16Settings settings;
+  settings.shading = {.width_px = size.width_px,
+                      .height_px = size.height_px,
+                      .lanes = run.info().width,
+                      .method = parseMethod(options.method)};
+  settings.reps = options.reps;
+  settings.w1_reps = std::min(options.reps, settings.w1_reps);
+  settings.threads = run.session().common.threads;
+  Zk16Case measured =
+      measureZk16Case(run.device(), run.cache(), scene, scene.view(view), settings, run.key());
+  const Image picture = heatmapPicture(
+      measured.counted.cells, {.title = fmt::format("{}/{}, cells per pixel", scene.name, view),
+                               .guard_hits = measured.counted.counts.guard_hits});
+  writePng(picture, run.folder() / fmt::format("cells_{}_{}.png", scene.name, view));
+  return std::move(measured.records);
+}
+
+void measure(BenchRun& run) {
+  std::vector<std::string> cases;
+  for (const std::string& scene : selectNames(knownScenes(), run.options().scenes))
+    for (const std::string& view : selectNames(knownViews(), run.options().views))
+      cases.push_back(scene + "/" + view);
+  std::optional<Scene> scene;  // loaded only if some view of it is left to measure
+  run.measureCases(kTable, cases, zk16Metrics(), [&](const std::string& name) {
+    const std::size_t slash = name.find('/');
+    const std::string scene_name = name.substr(0, slash);
+    if (!scene || scene->name != scene_name) scene = openScene(run.session().common, scene_name);
+    return measureView(run, *scene, name.substr(slash + 1));
+  });
+}
+
+std::string staticCountsText(const std::vector<Record>& records, int lanes) {
+  const auto kernel = std::ranges::find(records, "kernel_instructions", &Record::metric);
+  const auto loop = std::ranges::find(records, "cell_loop_instructions", &Record::metric);
+  if (kernel == records.end() || loop == records.end()) return "";
+  return fmt::format(
+      "\nStatic instructions of {}'s kernel, {} pixels at once:\n"
+      "{:.0f}, of which {:.0f} in the cell loop, which takes four cells at a time "
+      "(paper: {} and {})\n",
+      kernel->case_, lanes, kernel->value.median, loop->value.median, kZk16ShaderInstructions,
+      kZk16LoopInstructions);
+}
+
+std::string text(const BenchRun& run) {
+  const RunInfo& info = run.info();
+  const std::vector<Record> records = run.recordsOf(kTable);
+  return fmt::format(
+             "[ZK16] Table 1 at {}, {} lanes, {:.0f} GFLOP/s FMA peak (the paper's GTX 980: "
+             "{:.0f})\non {:.90}\n\n",
+             run.options().size, info.width, info.peak_gflops, kGtx980PeakGflops, info.device) +
+         zk16TableText(records) + "\n" + zk16BreakdownText(records) +
+         staticCountsText(records, info.width) + invalidText(records);
+}
+
+}  // namespace
+
+BenchTable zk16Bench() {
+  return {kTable, knownScenes(), knownViews(), measure, text};
+}
+
+}  // namespace glintmark

@@ -1,0 +1,109 @@
+#include "host/frame/effect/normal_maps.h"
+
+#include "host/core/error.h"
+#include "host/filter/normal_moments.h"
+#include "host/mixture/fournier_peaks.h"
+#include "host/mixture/half_mixtures.h"
+#include "host/mixture/mixture_cache.h"
+
+namespace glintmark {
+namespace {
+
+// The map's own normals, a texture of one level: every footprint is read at the finest.
+MipTexels finestNormals(const NormalMap& map) {
+  MipTexels texels;
+  texels.layout.width = static_cast<uint>(map.width_px);
+  texels.layout.height = static_cast<uint>(map.height_px);
+  texels.layout.level_count = 1;
+  texels.texels.reserve(map.normals.size());
+  for (const glm::vec3& n : map.normals) texels.texels.push_back({n.x, n.y, n.z, 0});
+  return texels;
+}
+
+template <typename T>
+NormalTexture upload(Device& device, const MipTexture& layout, const std::vector<T>& texels,
+                     std::size_t texel_bytes) {
+  NormalTexture texture;
+  texture.layout = Buffer(device, sizeof(MipTexture), "a normal map's layout");
+  texture.layout.write(&layout, sizeof(MipTexture));
+  texture.texels = Buffer(device, texels.size() * sizeof(T), "a filtered normal map");
+  texture.texels.write(texels.data(), texels.size() * sizeof(T));
+  texture.texel_bytes = texel_bytes;
+  return texture;
+}
+
+NormalTexture upload(Device& device, const MipTexels& texels) {
+  return upload(device, texels.layout, texels.texels,
+                static_cast<std::size_t>(texels.vectors) * sizeof(float4));
+}
+
+NormalTexture uploadMixtures(Device& device, const NormalMap& map, int lobes, bool half,
+                             MixtureOrder order, int iterations) {
+  const MixtureOptions options = mixtureOptions(lobes, order, iterations);
+  const NormalMixtures mixtures =
+      cachedNormalMixtures(map, options, DiskCache::fromEnvironment()).mixtures;
+  if (!half) return upload(device, mixtures.moments);
+  return upload(device, mixtures.moments.layout, packHalfMixtures(mixtures),
+                static_cast<std::size_t>(lobes) * 4 * sizeof(std::uint16_t));
+}
+
+NormalTexture makeTexture(Device& device, const NormalMap& map, NormalMethod method, int lobes,
+                          bool half, MixtureOrder order, int iterations) {
+  switch (method) {
+    case NormalMethod::kFixed:
+      return upload(device, finestNormals(map));
+    case NormalMethod::kMip:
+    case NormalMethod::kToksvig:
+      return upload(device, meanNormals(map));
+    case NormalMethod::kLean:
+      return upload(device, leanMoments(map));
+    case NormalMethod::kFournier:
+      return upload(device, fournierPeaks(map));
+    case NormalMethod::kGmm:
+      return uploadMixtures(device, map, lobes, half, order, iterations);
+  }
+  throw Error("the normal method is unknown; it must be 0 (mip) to 5 (gmm)");
+}
+
+}  // namespace
+
+MixtureOptions mixtureOptions(int lobes, MixtureOrder order, int iterations) {
+  MixtureOptions options{.lobes = lobes, .order = order};
+  if (iterations > 0) options.max_iterations = iterations;
+  return options;
+}
+
+const NormalTexture& NormalTextures::get(const std::shared_ptr<const NormalMap>& map,
+                                         const KernelConfig& config, MixtureOrder order,
+                                         int iterations) {
+  // Methods that read the same texture share it.
+  NormalMethod method = config.normal_method;
+  if (method == NormalMethod::kMip) method = NormalMethod::kToksvig;
+  const bool gmm = method == NormalMethod::kGmm;
+  const Key key = {map,
+                   method,
+                   gmm ? config.lobes : 0,
+                   gmm && config.half_texels,
+                   gmm ? order : MixtureOrder::kColours,
+                   gmm ? iterations : 0};
+  const auto found = textures_.find(key);
+  if (found != textures_.end()) return found->second;
+  return textures_
+      .emplace(key, makeTexture(device_, *map, method, config.lobes, config.half_texels, order,
+                                iterations))
+      .first->second;
+}
+
+const NormalTexture& NormalTextures::finest(const std::shared_ptr<const NormalMap>& map) {
+  KernelConfig config;
+  config.normal_method = NormalMethod::kFixed;
+  return get(map, config);
+}
+
+std::size_t NormalTextures::bytes() const {
+  std::size_t total = 0;
+  for (const auto& [key, texture] : textures_) total += texture.texels.bytes();
+  return total;
+}
+
+}  // namespace glintmark

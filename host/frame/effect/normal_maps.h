@@ -1,0 +1,47 @@
+// Normal maps on the device, in the form that the chosen method reads.
+#pragma once
+#include <map>
+#include <memory>
+#include <string>
+#include <tuple>
+
+#include "host/mixture/normal_mixture.h"
+#include "host/ocl/compute.h"
+#include "host/ocl/kernel_config.h"
+#include "host/scene/scene.h"
+
+namespace glintmark {
+
+/// A texture of kernels/normals/texture.clh on the device.
+struct NormalTexture {
+  Buffer layout;  // one MipTexture
+  Buffer texels;
+  std::size_t texel_bytes = 0;
+};
+
+/// How the mixtures of method gmm are fitted; `iterations` 0: the fit's default.
+MixtureOptions mixtureOptions(int lobes, MixtureOrder order, int iterations);
+
+/// Makes textures when they are first asked for and keeps them: nothing is fitted or uploaded that
+/// no kernel reads. Several renderers of one device may share one.
+class NormalTextures {
+ public:
+  explicit NormalTextures(Device& device) : device_(device) {}
+
+  /// What `config`'s kernel reads of `map`. `order` says how the mixtures of method gmm are
+  /// aligned, `iterations` how many EM steps a texel takes in the fit (0: its default).
+  const NormalTexture& get(const std::shared_ptr<const NormalMap>& map, const KernelConfig& config,
+                           MixtureOrder order = MixtureOrder::kColours, int iterations = 0);
+  /// The finest level alone: what the ground truth and method fixed read.
+  const NormalTexture& finest(const std::shared_ptr<const NormalMap>& map);
+  /// Bytes of all textures held.
+  std::size_t bytes() const;
+
+ private:
+  using Key =
+      std::tuple<std::shared_ptr<const NormalMap>, NormalMethod, int, bool, MixtureOrder, int>;
+  Device& device_;
+  std::map<Key, NormalTexture> textures_;
+};
+
+}  // namespace glintmark

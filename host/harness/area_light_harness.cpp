@@ -1,0 +1,117 @@
+#include "host/harness/area_light_harness.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "host/frame/effect/area_lights.h"
+#include "host/harness/pixel_harness.h"
+
+namespace glintmark {
+namespace {
+
+constexpr std::size_t kLocalSize = 16;
+constexpr const char* kProbes = "probes/probe_area_light.cl";
+
+template <typename T>
+Buffer upload(const std::vector<T>& items) {
+  Buffer buffer(KernelBench::shared().device, items.size() * sizeof(T), "probe input");
+  buffer.write(items.data(), items.size() * sizeof(T));
+  return buffer;
+}
+
+std::size_t paddedCount(std::size_t n) {
+  return (n + 15) / 16 * 16;
+}
+
+// Ten planes of numbers.
+std::vector<float> pointPlanes(const std::vector<HandMadePoint>& points, std::size_t stride) {
+  std::vector<float> planes(10 * stride);
+  for (std::size_t i = 0; i < stride; ++i) {
+    const HandMadePoint& p = points[std::min(i, points.size() - 1)];
+    for (int c = 0; c < 3; ++c) {
+      const auto plane = static_cast<std::size_t>(c);
+      planes[plane * stride + i] = static_cast<float>(p.position[c]);
+      planes[(3 + plane) * stride + i] = static_cast<float>(p.normal[c]);
+      planes[(6 + plane) * stride + i] = static_cast<float>(p.view[c]);
+    }
+    planes[9 * stride + i] = static_cast<float>(p.alpha);
+  }
+  return planes;
+}
+
+}  // namespace
+
+std::vector<glm::vec3> lightPoints(const AreaLightProbe& probe,
+                                   const std::vector<HandMadePoint>& points) {
+  const std::size_t stride = paddedCount(points.size());
+  std::size_t vertices = 3;
+  for (const AreaLight& light : probe.lights) vertices = std::max(vertices, light.vertices.size());
+  const bool diffuse = probe.material.albedo.x > 0;
+  Buffer out(KernelBench::shared().device, 3 * stride * 4, "probe output");
+  const std::vector<KernelArg> args = {upload(pointPlanes(points, stride)),
+                                       upload(std::vector{probe.material}),
+                                       upload(prepareAreaLights(probe.lights, glm::dvec3(0))),
+                                       upload(probe.table.values),
+                                       out,
+                                       static_cast<std::uint32_t>(probe.lights.size()),
+                                       static_cast<std::uint32_t>(probe.table.size),
+                                       static_cast<std::uint32_t>(stride)};
+  probeKernel(
+      kProbes, "probeAreaLights",
+      fmt::format("-D WIDTH={} -D LTC=1 -D LIGHT_VERTICES={} -D DIFFUSE={:d} -D CLIPLESS={:d}",
+                  probe.width, vertices, diffuse, probe.clipless))
+      .launch(args, stride / static_cast<std::size_t>(probe.width), kLocalSize);
+  std::vector<float> values(3 * stride);
+  out.read(values.data(), values.size() * 4);
+  std::vector<glm::vec3> result;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    result.emplace_back(values[i], values[stride + i], values[2 * stride + i]);
+  return result;
+}
+
+std::vector<float> footprintAlphas(LtcMethod method, float micro, const std::vector<float>& lengths,
+                                   int width) {
+  std::vector<float> padded = lengths;
+  padded.resize(paddedCount(lengths.size()), lengths.back());
+  Buffer out(KernelBench::shared().device, padded.size() * 4, "probe output");
+  const std::vector<KernelArg> args = {upload(padded), out,
+                                       static_cast<std::uint32_t>(padded.size()), micro};
+  probeKernel(kProbes, "probeFootprintAlpha",
+              fmt::format("-D WIDTH={} -D LTC=1 -D LTC_METHOD={}", width, static_cast<int>(method)))
+      .launch(args, padded.size() / static_cast<std::size_t>(width), kLocalSize);
+  out.read(padded.data(), padded.size() * 4);
+  padded.resize(lengths.size());
+  return padded;
+}
+
+LtcTable identityTable() {
+  LtcTable table(reference::Ndf::kGgx, LTC_SIZE_MIN);
+  for (int y = 0; y < table.size; ++y)
+    for (int x = 0; x < table.size; ++x) table.setCell(x, y, LtcCell{});
+  return table;
+}
+
+GlintMaterial whiteSpecular() {
+  GlintMaterial material{};
+  material.alpha_g = material.alpha_l = {1, 1};
+  material.intensity = 1;
+  material.f0 = {1, 1, 1, 0};
+  return material;
+}
+
+GlintMaterial whiteDiffuse() {
+  GlintMaterial material = whiteSpecular();
+  material.intensity = 0;
+  material.albedo = {1, 1, 1, 0};
+  return material;
+}
+
+AreaLight polygonLight(std::vector<glm::dvec3> vertices, bool two_sided) {
+  AreaLight light;
+  light.vertices = std::move(vertices);
+  light.two_sided = two_sided;
+  return light;
+}
+
+}  // namespace glintmark

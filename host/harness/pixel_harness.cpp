@@ -1,0 +1,210 @@
+#include "host/harness/pixel_harness.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "host/core/error.h"
+#include "host/core/planes.h"
+#include "host/frame/effect/lights.h"
+#include "host/frame/effects.h"
+
+namespace glintmark {
+namespace {
+
+constexpr std::size_t kLocalSize = 16;  // one everywhere: each new one is compiled anew by PoCL
+constexpr std::uint32_t kLimitedBit = 0x80000000u;
+
+float4 toFloat4(const glm::dvec3& v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0};
+}
+
+std::uint32_t bitsOf(double value) {
+  return std::bit_cast<std::uint32_t>(static_cast<float>(value));
+}
+
+std::vector<std::uint32_t> planeWords(const HandMadeFrame& frame, PlaneMask mask,
+                                      std::size_t stride) {
+  std::vector<std::uint32_t> words(mask.size() * stride);
+  for (std::size_t i = 0; i < stride; ++i) {
+    const HandMadePixel& pixel = frame.pixels[std::min(i, frame.pixels.size() - 1)];
+    const reference::PixelFootprint& f = pixel.footprint;
+    const auto store = [&](Plane plane, std::uint32_t word) {
+      if (mask.has(plane)) words[mask.slot(plane) * stride + i] = word;
+    };
+    store(Plane::kPixel, pixel.y << 16 | pixel.x);
+    store(Plane::kUInt, static_cast<std::uint32_t>(f.u.integer));
+    store(Plane::kVInt, static_cast<std::uint32_t>(f.v.integer));
+    store(Plane::kUFrac, f.u.fraction);
+    store(Plane::kVFrac, f.v.fraction);
+    store(Plane::kDudx, bitsOf(f.duv_dx.x));
+    store(Plane::kDvdx, bitsOf(f.duv_dx.y));
+    store(Plane::kDudy, bitsOf(f.duv_dy.x));
+    store(Plane::kDvdy, bitsOf(f.duv_dy.y));
+    store(Plane::kFrame0, pixel.frame.frame0);
+    store(Plane::kFrame1, pixel.frame.frame1);
+  }
+  return words;
+}
+
+template <typename T>
+Buffer upload(Device& device, std::vector<T> items) {
+  if (items.empty()) items.resize(1);
+  Buffer buffer(device, items.size() * sizeof(T), "test data");
+  buffer.write(items.data(), items.size() * sizeof(T));
+  return buffer;
+}
+
+FrameParams paramsOf(const HandMadeFrame& frame, std::size_t stride) {
+  FrameParams params{};
+  params.ray_origin = toFloat4(frame.ray_origin);
+  params.ray_dx = toFloat4(frame.ray_dx);
+  params.ray_dy = toFloat4(frame.ray_dy);
+  params.light_count = static_cast<uint>(frame.lights.size());
+  params.list_count = static_cast<uint>(frame.pixels.size());
+  params.plane_stride = static_cast<uint>(stride);
+  return params;
+}
+
+glm::dvec3 toDouble(const float4& v) {
+  return {v.x, v.y, v.z};
+}
+
+}  // namespace
+
+namespace {
+
+// Lives as long as the program: drivers dislike late teardown.
+KernelBench* the_bench = nullptr;
+
+}  // namespace
+
+KernelBench& KernelBench::open(Device device) {
+  the_bench = new KernelBench(std::move(device));
+  return *the_bench;
+}
+
+KernelBench& KernelBench::shared() {
+  return the_bench ? *the_bench : open(Device());
+}
+
+ShadedPixels shadePixels(const HandMadeFrame& frame, KernelConfig config) {
+  ShadedPixels result;
+  if (frame.pixels.empty()) return result;
+  Device& device = KernelBench::shared().device;
+  config.planes = planesFor(config);
+  const std::size_t n = frame.pixels.size();
+  const std::size_t stride = (n + GM_LIST_PADDING - 1) / GM_LIST_PADDING * GM_LIST_PADDING;
+
+  PreparedLights lights = prepareLights(frame.lights);
+  Buffer radiance(device, stride * 12, "radiance");
+  Buffer counts(device, stride * 4, "counts");
+  std::vector<KernelArg> args = {upload(device, planeWords(frame, config.planes, stride)),
+                                 upload(device, std::vector{paramsOf(frame, stride)}),
+                                 upload(device, std::vector{frame.material}),
+                                 upload(device, lights.lights), upload(device, lights.taps)};
+  if (frame.scatter) args.emplace_back(upload(device, std::vector{*frame.scatter}));
+  args.emplace_back(radiance);
+  if (config.count_cells) args.emplace_back(counts);
+  const auto lanes = static_cast<std::size_t>(config.width);
+  KernelBench::shared()
+      .cache.get("shade.cl", config)
+      .kernel("shade")
+      .launch(args, (n + lanes - 1) / lanes, kLocalSize);
+
+  std::vector<float> words(stride * 3);
+  radiance.read(words.data(), words.size() * 4);
+  for (std::size_t i = 0; i < n; ++i)
+    result.radiance.emplace_back(words[i], words[stride + i], words[2 * stride + i]);
+  if (config.count_cells) {
+    result.cells.resize(stride);
+    counts.read(result.cells.data(), stride * 4);
+    result.cells.resize(n);
+    for (std::uint32_t& cells : result.cells) {
+      result.limited.push_back((cells & kLimitedBit) != 0);
+      cells &= ~kLimitedBit;
+    }
+  }
+  return result;
+}
+
+GlintMaterial simpleMaterial(float2 alpha_g, float2 alpha_l, float density, float size_variation) {
+  GlintMaterial material{};
+  material.alpha_g = alpha_g;
+  material.alpha_l = alpha_l;
+  material.density = density;
+  material.size_variation = size_variation;
+  material.intensity = 1;
+  material.f0 = {1, 1, 1, 0};
+  return material;
+}
+
+ConeLight coneLight(const glm::dvec3& direction, double half_angle_rad, double irradiance) {
+  ConeLight light{};
+  light.direction = toFloat4(glm::normalize(direction));
+  light.direction.w = static_cast<float>(half_angle_rad);
+  const auto e = static_cast<float>(irradiance);
+  light.irradiance = {e, e, e, 0};
+  return light;
+}
+
+reference::FixedCoordinate fixedCoordinate(double coordinate) {
+  const double whole = std::floor(coordinate);
+  return {static_cast<std::int32_t>(whole),
+          static_cast<std::uint32_t>((coordinate - whole) * 0x1p32)};
+}
+
+PackedFrame flatFrame() {
+  return packFrame({0, 0, 1}, {1, 0, 0}, false);
+}
+
+glm::dvec2 deviceStretch(const GlintMaterial& material) {
+  Device& device = KernelBench::shared().device;
+  const std::vector<float4> alphas = {
+      {material.alpha_g.x, material.alpha_g.y, material.alpha_l.x, material.alpha_l.y}};
+  Buffer out(device, 8, "stretch");
+  const KernelArg args[] = {upload(device, alphas), out, std::uint32_t{1}};
+  probeKernel("probes/probe_glint.cl", "probeStretch", "-D WIDTH=1").launch(args, 1, kLocalSize);
+  float2 stretch;
+  out.read(&stretch, 8);
+  return {stretch.x, stretch.y};
+}
+
+reference::Glints referenceGlints(const GlintMaterial& material, bool groove) {
+  reference::Glints glints;
+  glints.alpha_g = {material.alpha_g.x, material.alpha_g.y};
+  glints.alpha_l = {material.alpha_l.x, material.alpha_l.y};
+  glints.density = material.density;
+  glints.size_variation = material.size_variation;
+  glints.intensity = material.intensity;
+  glints.f0 = toDouble(material.f0);
+  glints.groove = groove;
+  return glints;
+}
+
+reference::SurfacePixel referencePixel(const HandMadeFrame& frame, const HandMadePixel& pixel) {
+  reference::SurfacePixel surface;
+  surface.footprint = pixel.footprint;
+  // The planes hold floats.
+  for (glm::dvec2* d : {&surface.footprint.duv_dx, &surface.footprint.duv_dy})
+    *d = glm::dvec2(glm::vec2(*d));
+  surface.frame = unpackFrame(pixel.frame);
+  const glm::dvec3 ray = glm::dvec3(glm::vec3(frame.ray_origin)) +
+                         glm::dvec3(glm::vec3(frame.ray_dx)) * static_cast<double>(pixel.x) +
+                         glm::dvec3(glm::vec3(frame.ray_dy)) * static_cast<double>(pixel.y);
+  surface.view = -glm::normalize(ray);
+  return surface;
+}
+
+std::vector<reference::PointLight> referenceLights(const HandMadeFrame& frame) {
+  std::vector<reference::PointLight> lights;
+  for (const ConeLight& light : frame.lights)
+    lights.push_back({glm::normalize(toDouble(light.direction)), toDouble(light.irradiance)});
+  return lights;
+}
+
+Kernel probeKernel(const std::string& file, const std::string& name, const std::string& switches) {
+  return KernelBench::shared().cache.getWithOptions(file, switches).kernel(name);
+}
+
+}  // namespace glintmark

@@ -1,0 +1,109 @@
+// Bounds of the checks and of the tests that share them, each with its reason.
+#pragma once
+
+namespace glintmark {
+
+/// Relative difference in the smooth lobe between the kernel and the double-precision reference:
+/// the rational fit of Smith's Lambda is good to 0.35 %, and the rest is single precision.
+inline constexpr double kLobeTolerance = 5e-3;
+
+/// Difference in radiance relative to the smooth lobe between the kernel and the reference where
+/// both drew the same microdetails: cell weights and the lobe are good to some 1e-6, times the
+/// number of cells.
+inline constexpr double kShareTolerance = 1e-4;
+
+/// Share of pixels in which some draw may differ from the reference's. A draw flips when rounding
+/// moves a threshold across its random number: thresholds are good to 1e-6 relative, and a pixel
+/// makes 8 to 128 draws.
+inline constexpr double kFlippedPixelShare = 2e-3;
+
+/// Share of pixels whose cell count may differ in method exact (by 2 at most): a cell counts where
+/// it shares more than 1e-6 of itself with the footprint, and areas are good to some 1e-7. Method
+/// zk16 has no such threshold and agrees in every pixel.
+inline constexpr double kThresholdCountShare = 5e-3;
+
+/// log2 of the cell size: the area is a difference of products in single precision, at least 1/64
+/// of either where it counts (below, the limit of K_a decides): 64 * 6e-8 / ln 2, and log2's error
+/// on levels down to -30. Box: products of two floats.
+inline constexpr double kFootprintLevel = 6e-6, kFootprintExtent = 2e-7;
+
+// Elementary functions, as kernels/wide/wide_math.clh states them.
+inline constexpr double kExp2Error = 5e-7, kLog2Error = 2e-7, kReciprocalError = 2e-7;
+inline constexpr double kRsqrtError = 3e-7, kQuantileError = 1.2e-6;
+
+/// Deviations of the mean of stratified draws in standard errors; four are exceeded once in 16,000
+/// cases of independent draws, and stratified ones spread less.
+inline constexpr double kMeanStandardErrors = 4;
+/// Relative error of the variance of 65536 stratified draws: 2 % of it stays open.
+inline constexpr double kVarianceTolerance = 0.025;
+/// Share of summed draws that may differ from Boost.Math's quantile: sums in single precision are
+/// good to 1e-7, and steps of the quantile are 1e-4 apart and more.
+inline constexpr double kFlippedDrawShare = 1e-3;
+/// Draws from the normal distribution, in standard deviations beyond whole numbers: what the
+/// Cornish-Fisher expansion leaves.
+inline constexpr double kExpansionSigmas = 0.01;
+
+/// Mean of glints over many cells against the smooth lobe: 1 %, and a quarter of it as the standard
+/// error of that mean.
+inline constexpr double kEnergyTolerance = 0.01;
+
+/// A cone of light is a set of taps, each a narrow lobe to first order. What that leaves, relative
+/// to the brightest that a light of that size gives the view: on average over views and lights, and
+/// at worst, which is a view 10 degrees above the surface under a light as wide as the sky.
+inline constexpr double kMeanConeTolerance = 0.015;
+inline constexpr double kWorstConeTolerance = 0.08;
+inline constexpr double kConeDiffuseTolerance = 0.02;
+
+/// Form factors: single precision over a dozen terms of at most 1/2, and the edge fit's 1e-7.
+inline constexpr double kFormFactorTolerance = 1e-5;
+/// Relative, of lights from 1e-6 steradians on.
+inline constexpr double kSmallLightRelative = 1e-3;
+/// Relative, of tiny lights: directions are good to 6e-8, differences of directions of a light of
+/// 1e-10 steradians, 1e-5 wide, to 6e-3.
+inline constexpr double kTinyLightRelative = 0.03;
+/// The same transformed cosine in double precision: interpolation and a dozen terms in single
+/// precision. Lobes of roughness alpha turn an error of direction of 1e-7 into 1e-7 / alpha.
+inline constexpr double kSameLobe = 2e-4;
+/// A hemisphere of light against the table's albedo: the light is 2e5 wide, not infinite, and the
+/// scale of the lobe was fitted.
+inline constexpr double kHemisphereAlbedo = 2e-3;
+/// Diffuse and specular lobe reflect at most everything each, and table cells overshoot a little.
+inline constexpr double kMostReflected = 2.2;
+/// Roughness from the length of a mean normal by the published polynomials, in single precision.
+inline constexpr double kMesoAlpha = 1e-5;
+
+/// Texture fetches: positions are good to 2^-16 texels and levels to some 1e-6; neighbouring random
+/// texels differ by up to 2, and a probe adds eight of them.
+inline constexpr double kFetchTolerance = 3e-4;
+/// Mip level: single precision of axes and logarithm.
+inline constexpr double kLevelTolerance = 1e-5;
+
+/// Lobes of normals, differences in units of their own bounds: weights 1e-7, means 1e-6 and
+/// variances 4e-7 (second moments near 1 in single precision), cosines 1e-5 (some ten roundings).
+inline constexpr double kLobeWeight = 1e-7, kLobeMean = 1e-6, kLobeVariance = 4e-7;
+inline constexpr double kLobeCosine = 1e-5;
+/// Relative: the rational fit of Smith's Lambda is good to 0.35 % of G1, here for light and view.
+inline constexpr double kMaskingTolerance = 7e-3;
+/// Brightness below which a difference does not show: the peak of the base lobe is above 1.
+inline constexpr double kDark = 1e-4;
+
+/// Multiple scattering, relative to a Lambertian lobe's radiance: single precision and the
+/// polynomials in a cosine.
+inline constexpr double kScatterTolerance = 5e-4;
+/// With masking, which on smooth surfaces sets in within cosines of the size of their roughness:
+/// polynomials do not follow that, and are off by part of the two hundredths that the published
+/// lobes hold there.
+inline constexpr double kMaskedScatterTolerance = 3e-3;
+/// White furnaces of the analytic models: the polynomials of a share are good to 2e-3 of all
+/// energy.
+inline constexpr double kFurnaceTolerance = 2e-3;
+/// Energy of one bounce against Smith's theory, which takes heights and slopes to be independent;
+/// those of a smooth surface are not. Measured 0.020 at most.
+inline constexpr double kSmithTolerance = 0.03;
+/// Variance of the facets' slopes: amplitudes are floats and heights are counts.
+inline constexpr double kSlopeVariance = 1e-5;
+/// Kurtosis of a Gaussian's slopes, of a tile of some 7000 independent facets: 0.06 is its standard
+/// error.
+inline constexpr double kSlopeKurtosis = 0.3;
+
+}  // namespace glintmark

@@ -1,0 +1,118 @@
+#include "host/report/picture/image_io.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "host/core/atomic_file.h"
+#include "host/core/error.h"
+
+namespace glintmark {
+namespace {
+
+std::string lowerExtension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+std::vector<std::string> channelNames(const Image& image, const std::filesystem::path& path) {
+  if (!image.channel_names.empty()) return image.channel_names;
+  if (image.channels == 1) return {"Y"};
+  if (image.channels == 3) return {"R", "G", "B"};
+  if (image.channels == 4) return {"R", "G", "B", "A"};
+  throw Error(fmt::format("cannot write {}: an image of {} channels needs channel names",
+                          path.string(), image.channels));
+}
+
+void requireConsistent(const Image& image, const std::filesystem::path& path) {
+  const std::size_t expected =
+      static_cast<std::size_t>(image.width) * image.height * image.channels;
+  const bool names_fit = image.channel_names.empty() ||
+                         image.channel_names.size() == static_cast<std::size_t>(image.channels);
+  if (image.width < 1 || image.height < 1 || image.channels < 1 ||
+      image.pixels.size() != expected || !names_fit) {
+    throw Error(
+        fmt::format("cannot write {}: the image of {}x{} pixels and {} channels is empty "
+                    "or inconsistent",
+                    path.string(), image.width, image.height, image.channels));
+  }
+}
+
+// Encodes in memory and writes the bytes ourselves: OpenImageIO does not report every failed write
+// of a PNG.
+void encodeFile(const std::string& format, const OIIO::ImageSpec& spec, OIIO::TypeDesc pixel_type,
+                const void* pixels, const std::filesystem::path& path) {
+  auto output = OIIO::ImageOutput::create(format);
+  if (!output) {
+    throw Error(
+        fmt::format("cannot write {}: this OpenImageIO has no {} support", path.string(), format));
+  }
+  std::vector<unsigned char> bytes;
+  OIIO::Filesystem::IOVecOutput memory(bytes);
+  const bool encoded = output->set_ioproxy(&memory) && output->open(path.string(), spec) &&
+                       output->write_image(pixel_type, pixels) && output->close();
+  if (!encoded) {
+    throw Error(fmt::format("cannot write {}: {}", path.string(), output->geterror()));
+  }
+  writeFile(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+}  // namespace
+
+std::string requireImageExtension(const std::filesystem::path& path) {
+  const std::string extension = lowerExtension(path);
+  if (extension != ".exr" && extension != ".png") {
+    throw Error(fmt::format("cannot write '{}': the name must end in .exr or .png", path.string()));
+  }
+  return extension;
+}
+
+void writeExr(const Image& image, const std::filesystem::path& path) {
+  requireConsistent(image, path);
+  OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::FLOAT);
+  spec.channelnames = channelNames(image, path);
+  spec.attribute("compression", "zip");
+  encodeFile("openexr", spec, OIIO::TypeDesc::FLOAT, image.pixels.data(), path);
+}
+
+void writePng(const Image& image, const std::filesystem::path& path) {
+  requireConsistent(image, path);
+  if (image.channels == 2 || image.channels > 4) {
+    throw Error(fmt::format("cannot write {}: a PNG holds 1, 3 or 4 channels, not {}",
+                            path.string(), image.channels));
+  }
+  std::vector<std::uint8_t> bytes(image.pixels.size());
+  std::ranges::transform(image.pixels, bytes.begin(), [](float value) {
+    // The comparison is false for NaN, which becomes 0.
+    const float clamped = value > 0.0f ? std::min(value, 1.0f) : 0.0f;
+    return static_cast<std::uint8_t>(std::lround(clamped * 255.0f));
+  });
+  OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::UINT8);
+  spec.attribute("oiio:ColorSpace", "sRGB");
+  encodeFile("png", spec, OIIO::TypeDesc::UINT8, bytes.data(), path);
+}
+
+Image readImage(const std::filesystem::path& path) {
+  // Colours that alpha has not multiplied stay as they are: normals and heights keep their values.
+  OIIO::ImageSpec hints;
+  hints.attribute("oiio:UnassociatedAlpha", 1);
+  auto input = OIIO::ImageInput::open(path.string(), &hints);
+  if (!input) {
+    throw Error(fmt::format("cannot read image {}: {}", path.string(), OIIO::geterror()));
+  }
+  const OIIO::ImageSpec& spec = input->spec();
+  Image image(spec.width, spec.height, spec.nchannels);
+  image.channel_names = spec.channelnames;
+  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.pixels.data())) {
+    throw Error(fmt::format("cannot read image {}: {}", path.string(), input->geterror()));
+  }
+  return image;
+}
+
+}  // namespace glintmark

@@ -1,0 +1,57 @@
+// The running log of a benchmark: one JSON line per record, on the disk before the next is
+// measured.
+#pragma once
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "host/report/record/record.h"
+
+namespace glintmark {
+
+/// What a log holds up to the end of its last whole batch.
+struct LogContent {
+  std::optional<RunInfo> run;  // nothing if not even the first line is whole
+  std::vector<Record> records;
+  std::size_t whole_bytes = 0;  // of the text, up to there
+};
+
+/// Reads the text of a log. The end of a log may be cut off, in the middle of a line or of a batch;
+/// that batch is left out. Throws Error for another schema or damage before the last line.
+LogContent parseLog(const std::string& text, const std::string& source);
+
+class RecordLog {
+ public:
+  /// Starts an empty log. An old one is kept as `<path>.old`, in place of what had that name.
+  static RecordLog create(const std::filesystem::path& path, const RunInfo& run);
+  /// Opens a log to carry on with it. A batch that was cut off is dropped. If there is no log,
+  /// starts one. Throws Error if the log is of another schema, device, width or program version, or
+  /// if a line before the last is damaged.
+  static RecordLog resume(const std::filesystem::path& path, const RunInfo& run);
+
+  ~RecordLog();
+  RecordLog(RecordLog&& other) noexcept;
+  RecordLog& operator=(RecordLog&&) = delete;
+
+  /// Appends the records as one batch, which a resumed log holds whole or not at all, and waits
+  /// until they are on the disk. Throws Error if they cannot be written; the log is as before then.
+  void append(std::span<const Record> records);
+  /// All records of the log, old ones first.
+  const std::vector<Record>& records() const { return records_; }
+  /// The latest record of each metric of a case, among those whose configuration has every entry of
+  /// `config` (and perhaps more), in the order of the log.
+  std::vector<Record> recordsOf(const std::string& table, const std::string& case_name,
+                                const std::map<std::string, std::string>& config) const;
+
+ private:
+  RecordLog(std::filesystem::path path, bool keep);
+
+  std::filesystem::path path_;
+  int descriptor_ = -1;
+  std::vector<Record> records_;
+};
+
+}  // namespace glintmark

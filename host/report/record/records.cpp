@@ -1,0 +1,210 @@
+#include "host/report/record/records.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "host/core/atomic_file.h"
+#include "host/core/error.h"
+
+namespace glintmark {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json runToJson(const RunInfo& run) {
+  return {{"date", run.date},        {"git", run.git},
+          {"command", run.command},  {"cpu", run.cpu},
+          {"cores", run.cores},      {"device", run.device},
+          {"driver", run.driver},    {"platform", run.platform},
+          {"width", run.width},      {"peak_gflops", run.peak_gflops},
+          {"peak_gbs", run.peak_gbs}};
+}
+
+// A whole number that T can hold; the library casts whatever number it finds.
+template <typename T>
+T wholeNumber(const Json& json, const char* name) {
+  const double value = json.at(name).get<double>();
+  if (!(value >= 0 && value <= 1e9 && value == std::floor(value)))
+    throw Error(fmt::format("field {} is {}, not a whole number from 0 to 1e9", name, value));
+  return static_cast<T>(value);
+}
+
+RunInfo runFromJson(const Json& json) {
+  RunInfo run;
+  json.at("date").get_to(run.date);
+  json.at("git").get_to(run.git);
+  json.at("command").get_to(run.command);
+  json.at("cpu").get_to(run.cpu);
+  run.cores = wholeNumber<int>(json, "cores");
+  json.at("device").get_to(run.device);
+  json.at("driver").get_to(run.driver);
+  json.at("platform").get_to(run.platform);
+  run.width = wholeNumber<int>(json, "width");
+  json.at("peak_gflops").get_to(run.peak_gflops);
+  json.at("peak_gbs").get_to(run.peak_gbs);
+  return run;
+}
+
+bool isFinite(const Summary& s) {
+  return std::isfinite(s.median) && std::isfinite(s.min) && std::isfinite(s.p95) &&
+         std::isfinite(s.stddev);
+}
+
+Json recordToJson(const Record& record) {
+  // nlohmann writes NaN and infinity as null.
+  return {{"table", record.table},
+          {"case", record.case_},
+          {"metric", record.metric},
+          {"unit", record.unit},
+          {"median", record.value.median},
+          {"min", record.value.min},
+          {"p95", record.value.p95},
+          {"stddev", record.value.stddev},
+          {"n", record.value.n},
+          {"paper", record.paper ? Json(*record.paper) : Json(nullptr)},
+          {"valid", record.valid && isFinite(record.value)},
+          {"note", record.note},
+          {"config", record.config}};
+}
+
+double numberOrNan(const Json& json) {
+  return json.is_null() ? std::nan("") : json.get<double>();
+}
+
+Record recordFromJson(const Json& json) {
+  Record record;
+  json.at("table").get_to(record.table);
+  json.at("case").get_to(record.case_);
+  json.at("metric").get_to(record.metric);
+  json.at("unit").get_to(record.unit);
+  record.value.median = numberOrNan(json.at("median"));
+  record.value.min = numberOrNan(json.at("min"));
+  record.value.p95 = numberOrNan(json.at("p95"));
+  record.value.stddev = numberOrNan(json.at("stddev"));
+  record.value.n = wholeNumber<std::size_t>(json, "n");
+  if (!json.at("paper").is_null()) record.paper = json.at("paper").get<double>();
+  json.at("valid").get_to(record.valid);
+  json.at("note").get_to(record.note);
+  json.at("config").get_to(record.config);
+  return record;
+}
+
+Json parse(const std::string& text, const std::string& source) {
+  try {
+    return Json::parse(text);
+  } catch (const Json::parse_error& error) {
+    throw Error(fmt::format("{} is not valid JSON or was cut off (byte {})", source, error.byte));
+  } catch (const Json::out_of_range&) {
+    throw Error(fmt::format("{} holds a number that is too large", source));
+  }
+}
+
+void requireSchema(const Json& json, const std::string& source) {
+  const bool named = json.is_object() && json.contains("schema") && json["schema"].is_string();
+  if (!named) throw Error(fmt::format("{} names no results schema", source));
+  const std::string schema = json["schema"];
+  if (schema != kResultsSchema) {
+    throw Error(fmt::format("{} has schema '{}', but this program reads '{}'", source, schema,
+                            kResultsSchema));
+  }
+}
+
+// Runs `read`, turning missing fields and wrong types into an Error.
+template <typename Read>
+auto readFields(const std::string& source, Read read) {
+  try {
+    return read();
+  } catch (const Error& error) {
+    throw Error(fmt::format("{}: {}", source, error.what()));
+  } catch (const Json::exception& error) {
+    throw Error(
+        fmt::format("{} lacks a field or has one of the wrong type ({})", source, error.what()));
+  }
+}
+
+// Text in the file may come from user paths that are not UTF-8; bad bytes are replaced.
+std::string dump(const Json& json, int indent) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string csvField(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"') quoted += '"';
+    quoted += c;
+  }
+  return quoted + '"';
+}
+
+}  // namespace
+
+std::string toJson(const Results& results) {
+  Json records = Json::array();
+  for (const Record& record : results.records) records.push_back(recordToJson(record));
+  const Json file = {
+      {"schema", kResultsSchema}, {"run", runToJson(results.run)}, {"records", records}};
+  return dump(file, 1) + "\n";
+}
+
+Results fromJson(const std::string& text, const std::string& source) {
+  const Json json = parse(text, source);
+  requireSchema(json, source);
+  return readFields(source, [&] {
+    Results results;
+    results.run = runFromJson(json.at("run"));
+    for (const Json& record : json.at("records")) {
+      results.records.push_back(recordFromJson(record));
+    }
+    return results;
+  });
+}
+
+std::string headerLine(const RunInfo& run) {
+  return dump({{"schema", kResultsSchema}, {"run", runToJson(run)}}, -1);
+}
+
+std::string recordLine(const Record& record, std::optional<std::size_t> more) {
+  Json json = recordToJson(record);
+  if (more) json["more"] = *more;
+  return dump(json, -1);
+}
+
+RunInfo parseHeaderLine(const std::string& line, const std::string& source) {
+  const Json json = parse(line, source);
+  requireSchema(json, source);
+  return readFields(source, [&] { return runFromJson(json.at("run")); });
+}
+
+LogLine parseRecordLine(const std::string& line, const std::string& source) {
+  const Json json = parse(line, source);
+  return readFields(source, [&] {
+    return LogLine{recordFromJson(json),
+                   json.contains("more") ? wholeNumber<std::size_t>(json, "more") : 0};
+  });
+}
+
+std::string toCsv(const std::vector<Record>& records) {
+  std::string csv = "table,case,metric,unit,median,min,p95,stddev,n,paper,valid,note,config\n";
+  for (const Record& record : records) {
+    std::string config;
+    for (const auto& [key, value] : record.config) {
+      config += fmt::format("{}{}={}", config.empty() ? "" : ";", key, value);
+    }
+    const Summary& v = record.value;
+    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csvField(record.table),
+                       csvField(record.case_), csvField(record.metric), csvField(record.unit),
+                       v.median, v.min, v.p95, v.stddev, v.n,
+                       record.paper ? fmt::format("{}", *record.paper) : "", record.valid,
+                       csvField(record.note), csvField(config));
+  }
+  return csv;
+}
+
+Results readResults(const std::filesystem::path& path) {
+  return fromJson(readTextFile(path), path.string());
+}
+
+}  // namespace glintmark

@@ -1,0 +1,52 @@
+#include "host/report/record/run_info.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <ctime>
+#include <fstream>
+#include <thread>
+
+#include "glintmark_git_version.h"
+
+namespace glintmark {
+namespace {
+
+// The value of the first "key : value" line of a /proc file, or an empty string.
+std::string procValue(const char* file, const std::string& key) {
+  std::ifstream stream(file);
+  for (std::string line; std::getline(stream, line);) {
+    if (!line.starts_with(key)) continue;
+    const std::size_t colon = line.find(':');
+    if (colon == std::string::npos) continue;
+    const std::size_t value = line.find_first_not_of(" \t", colon + 1);
+    return value == std::string::npos ? "" : line.substr(value);
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string gitVersion() {
+  return GLINTMARK_GIT_VERSION;
+}
+
+RunInfo describeHost(std::span<const char* const> command_line) {
+  RunInfo run;
+  run.date = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+  run.git = gitVersion();
+  for (const char* word : command_line) {
+    if (!run.command.empty()) run.command += ' ';
+    run.command += word;
+  }
+  run.cpu = procValue("/proc/cpuinfo", "model name");
+  run.cores = static_cast<int>(std::thread::hardware_concurrency());
+  return run;
+}
+
+unsigned long long availableMemoryBytes() {
+  const std::string kilobytes = procValue("/proc/meminfo", "MemAvailable");
+  return kilobytes.empty() ? 0 : std::stoull(kilobytes) * 1024;
+}
+
+}  // namespace glintmark

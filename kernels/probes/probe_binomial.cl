@@ -1,0 +1,16 @@
+// Runs the kernels' binomial draw over arrays of (u, n, p).
+#include "glint/binomial.clh"
+
+#define FIRST (get_global_id(0) * WIDTH)
+
+WIDE vfloat loadFloat(global const float* p, size_t i) {
+  return bitsToFloat(loadUint((global const uint*)p, i));
+}
+
+kernel void probeBinomial(global const float* u, global const float* n, global const float* p,
+                          global float* out, uint count) {
+  if (FIRST >= count) return;
+  const vfloat k = drawBinomial(loadFloat(u, FIRST), loadFloat(n, FIRST),
+                                makeBinomialOdds(loadFloat(p, FIRST)));
+  storeFloat(k, out, FIRST);
+}
