@@ -23,28 +23,23 @@ PlaneMask planesFor(const KernelConfig& config) {
 
 namespace {
 
-// How cells are walked and drawn; a kernel without glints keeps the defaults, and so its program.
-void setGlints(const ShadingOptions& options, KernelConfig& config) {
-  if (!config.glint) return;
-  config.method = options.method;
-  config.ka = options.ka;
-  config.grids = options.grids;
-  config.binomial = options.binomial;
-  config.binomial_terms = options.binomial_terms;
-}
-
 // What the kernel makes of a material's normal map; the ground truth reads its finest level.
 void setNormalMap(const Material& material, const ShadingOptions& options, KernelConfig& config) {
   config.normal_map = material.normal_map.has_value();
   if (!config.normal_map) return;
-  config.normal_method = options.truth ? NormalMethod::kFixed : options.normal_method;
-  const bool gmm = config.normal_method == NormalMethod::kGmm;
-  if (gmm) config.lobes = options.lobes > 0 ? options.lobes : material.normal_map->lobes;
-  config.half_texels = gmm && options.half_texels;
+  if (options.truth) {
+    config.normal_method = NormalMethod::kFixed;
+    return;
+  }
+  setKnobs(options, &KernelConfig::normal_map, config);
+  if (config.normal_method == NormalMethod::kGmm)
+    config.lobes = options.lobes > 0 ? options.lobes : material.normal_map->lobes;
+  else
+    config.half_texels = false;
   // Fournier's peaks are not filtered, so his method knows no anisotropic filter.
-  const bool isotropic = options.truth || config.normal_method == NormalMethod::kFixed ||
-                         config.normal_method == NormalMethod::kFournier;
-  config.anisotropy = isotropic ? 1 : options.anisotropy;
+  if (config.normal_method == NormalMethod::kFixed ||
+      config.normal_method == NormalMethod::kFournier)
+    config.anisotropy = 1;
 }
 
 // What the scene's area lights call for.
@@ -60,11 +55,11 @@ void setAreaLights(const Material& material, const Scene& scene, const ShadingOp
   }
   config.light_vertices = static_cast<int>(most_vertices);
   if (options.truth) return;
-  config.clipless = options.clipless;
-  config.edges = options.edges;
-  config.ltc_half = options.ltc_half;
-  if (!config.normal_map) return;
-  config.ltc_method = options.ltc_method;
+  setKnobs(options, &KernelConfig::ltc, config);
+  if (!config.normal_map) {
+    config.ltc_method = LtcMethod::kOriginal;  // nothing varies below a pixel
+    return;
+  }
   // Area lights read mean normals, and so do the methods mip and toksvig.
   if (config.normal_method != NormalMethod::kMip) config.normal_method = NormalMethod::kToksvig;
   config.lobes = 1;
@@ -88,8 +83,8 @@ KernelConfig configFor(const Material& material, const Scene& scene, const Shadi
       scene.lights, [](const ConeLight& light) { return light.direction.w > 0; });
   config.diffuse = albedo.x > 0 || albedo.y > 0 || albedo.z > 0;
   config.count_cells = config.glint && options.count_cells;
-  setGlints(options, config);
-  config.maths = options.truth ? Maths::kOwn : options.maths;
+  setKnobs(options, &KernelConfig::glint, config);
+  if (!options.truth) setKnobs(options, kEveryProgram, config);
   // The ground truth of normal maps and area lights keeps to the plain lobes.
   if (config.diffuse && config.cone_lights && !options.truth)
     config.multiscatter = static_cast<Multiscatter>(material.diffuse_model);
@@ -139,7 +134,7 @@ KernelConfig configForAll(const Scene& scene, const ShadingOptions& options, int
   if (map_user) all.lobes = map_user->lobes;
   all.all_materials = all.glint = all.groove = all.glint_colour = all.size_variation = true;
   all.cone_lights = all.diffuse = all.ltc = all.metal_compensation = true;
-  setGlints(options, all);
+  setKnobs(options, &KernelConfig::glint, all);
   all.ltc_method = options.ltc_method;
   all.multiscatter = scatterer ? scatterer->multiscatter : Multiscatter::kRefit;
   all.lobe_masking =

@@ -3,17 +3,31 @@
 #include <fmt/format.h>
 
 #include "host/core/error.h"
+#include "host/ocl/switches.h"
 
 namespace glintmark {
 
-GlintMethod parseMethod(const std::string& name) {
-  if (name == "zk16") return GlintMethod::kZk16;
-  if (name == "exact") return GlintMethod::kExact;
-  throw Error(fmt::format("unknown method '{}'; methods are zk16 and exact", name));
+void setKnobs(const ShadingOptions& options, bool KernelConfig::*effect, KernelConfig& config) {
+  if (effect != kEveryProgram && !(config.*effect)) return;
+#define KNOB_ELSE(macro, type, member, standard, without, values, effect_of_knob, ...) \
+  if (effect == (effect_of_knob)) config.member = options.member;
+#include "host/ocl/switches.inc"
 }
 
-std::string methodName(GlintMethod method) {
-  return method == GlintMethod::kZk16 ? "zk16" : "exact";
+void turnKnob(ShadingOptions& options, std::string_view macro, int value) {
+  const Switch& row = switchNamed(macro);
+  if (!row.values.allow(value)) throw Error(fmt::format("{} cannot be {}", row.macro, value));
+#define KNOB_ELSE(macro_of_knob, type, member, ...) \
+  if (macro == #macro_of_knob) {                    \
+    options.member = static_cast<type>(value);      \
+    return;                                         \
+  }
+#include "host/ocl/switches.inc"
+  throw Error(fmt::format("{} is a switch, but no knob", macro));
+}
+
+GlintMethod parseMethod(const std::string& name) {
+  return parseChoice<GlintMethod>(name, "method");
 }
 
 }  // namespace glintmark

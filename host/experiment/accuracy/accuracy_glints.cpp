@@ -10,9 +10,11 @@
 #include <cmath>
 
 #include "host/experiment/accuracy/accuracy_sweep.h"
+#include "host/experiment/accuracy/knob_settings.h"
 #include "host/experiment/tao21/tao21_view.h"
 #include "host/experiment/zk16/zk16_case.h"
 #include "host/experiment/zk16/zk16_table.h"
+#include "host/ocl/switches.h"
 #include "host/report/accuracy_table.h"
 #include "host/report/distribution.h"
 #include "host/report/metrics.h"
@@ -21,9 +23,6 @@
 namespace glintmark {
 namespace {
 
-constexpr int kKas[] = {1, 2, 4, 8, 16, 32, 64};
-constexpr int kTerms[] = {2, 4, 8, 16, 32, 64};
-constexpr int kLanes[] = {1, 4, 8, 16};
 constexpr int kTruthFrames = 4;
 constexpr int kMotionFrames = 3;
 constexpr double kMotionStep_px = 0.25;
@@ -166,40 +165,32 @@ AccuracyFigures GlintSweep::figures(std::size_t index, const AccuracyStage& stag
 }
 
 std::vector<AccuracySetting> settings(int device_lanes) {
+  KnobSettings knobs("glints");
   std::vector<AccuracySetting> all;
-  const auto add = [&](const std::string& name, bool is_default,
-                       std::function<void(ShadingOptions&)> apply) {
-    all.push_back({name, std::move(apply), is_default ? kAccuracyDefault : kAccuracyKnob});
-  };
-  for (const GlintMethod method : {GlintMethod::kZk16, GlintMethod::kExact})
-    add("method=" + methodName(method), method == GlintMethod::kZk16,
-        [method](ShadingOptions& o) { o.method = method; });
-  for (const int ka : kKas)
-    add(fmt::format("ka={}", ka), ka == ShadingOptions{}.ka,
-        [ka](ShadingOptions& o) { o.ka = ka; });
-  for (const int grids : {1, 2})
-    add(fmt::format("grids={}", grids), grids == 2,
-        [grids](ShadingOptions& o) { o.grids = grids; });
-  const auto binomial = [&](const std::string& name, BinomialForm form, int terms = 16) {
+  knobs.moveTo(all, {"method", "ka", "grids"});
+  const auto binomial = [&](const std::string& name, int form, int terms) {
     // Capped inversion of 16 terms is what method zk16 draws by.
-    add("binomial=" + name, form == BinomialForm::kCapped && terms == 16,
-        [form, terms](ShadingOptions& o) {
-          o.binomial = form;
-          o.binomial_terms = terms;
-        });
+    const bool is_default = form == static_cast<int>(BinomialForm::kCapped) &&
+                            terms == switchNamed("BINOMIAL_TERMS").standard;
+    all.push_back({"binomial=" + name,
+                   [form, terms](ShadingOptions& o) {
+                     turnKnob(o, "BINOMIAL", form);
+                     turnKnob(o, "BINOMIAL_TERMS", terms);
+                   },
+                   is_default ? kAccuracyDefault : kAccuracyKnob});
   };
-  binomial("expected", BinomialForm::kExpected);
-  binomial("gaussian", BinomialForm::kGaussian);
-  for (const int terms : kTerms)
-    binomial(fmt::format("capped_{}", terms), BinomialForm::kCapped, terms);
-  binomial("exact", BinomialForm::kExact);
-  for (const auto& [name, maths] :
-       {std::pair("own", Maths::kOwn), {"native", Maths::kNative}, {"precise", Maths::kPrecise}})
-    add(fmt::format("maths={}", name), maths == Maths::kOwn,
-        [maths = maths](ShadingOptions& o) { o.maths = maths; });
-  for (const int lanes : kLanes)
-    add(fmt::format("lanes={}", lanes), lanes == device_lanes,
-        [lanes](ShadingOptions& o) { o.lanes = lanes; });
+  const Switch &forms = switchNamed("BINOMIAL"), &terms = switchNamed("BINOMIAL_TERMS");
+  for (const int form : forms.sweep.values) {
+    if (form != static_cast<int>(BinomialForm::kCapped))
+      binomial(forms.nameOf(form), form, terms.standard);
+    else
+      for (const int count : terms.sweep.values)
+        binomial(fmt::format("{}_{}", forms.nameOf(form), count), form, count);
+  }
+  knobs.moveRestTo(all);
+  for (const int lanes : switchNamed("WIDTH").sweep.values)
+    all.push_back({fmt::format("lanes={}", lanes), [lanes](ShadingOptions& o) { o.lanes = lanes; },
+                   lanes == device_lanes ? kAccuracyDefault : kAccuracyKnob});
   return all;
 }
 

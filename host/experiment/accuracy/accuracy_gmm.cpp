@@ -5,59 +5,40 @@
 
 #include "host/core/error.h"
 #include "host/experiment/accuracy/accuracy_truth.h"
+#include "host/experiment/accuracy/knob_settings.h"
 #include "host/frame/effect/normal_maps.h"
 #include "host/mixture/normal_mixture.h"
+#include "host/ocl/switches.h"
 #include "host/report/accuracy_table.h"
 
 namespace glintmark {
 namespace {
 
-constexpr int kLobeCounts[] = {1, 2, 4, 6, 8};
-constexpr int kProbeCounts[] = {1, 2, 4, 8, 16};
 constexpr int kIterations[] = {1, 2, 4, 8, 16};
 constexpr int kFitReps = 3;
 constexpr int kSupersamples[] = {1, 4, 16, 64};
 constexpr SampledTruthSettings kTruth = {PrincipalMetric::kColourError, 480, 256};
 
-struct Rival {
-  const char* name;
-  NormalMethod method;
-};
-constexpr Rival kRivals[] = {{"toksvig", NormalMethod::kToksvig},
-                             {"lean", NormalMethod::kLean},
-                             {"fournier", NormalMethod::kFournier},
-                             {"mip", NormalMethod::kMip},
-                             {"fixed", NormalMethod::kFixed}};
-
 std::vector<AccuracySetting> settings() {
-  const int default_lobes = 4, default_probes = ShadingOptions{}.anisotropy,
-            default_iterations = MixtureOptions{}.max_iterations;
+  KnobSettings knobs("gmm");
   std::vector<AccuracySetting> all;
   const auto add = [&](const std::string& name, bool is_default,
                        std::function<void(ShadingOptions&)> apply) {
     all.push_back({name, std::move(apply), is_default ? kAccuracyDefault : kAccuracyKnob});
   };
-  for (const int lobes : kLobeCounts)
-    add(fmt::format("lobes={}", lobes), lobes == default_lobes,
+  for (const int lobes : switchNamed("LOBES").sweep.values)
+    add(fmt::format("lobes={}", lobes), lobes == NormalMapSource{}.lobes,
         [lobes](ShadingOptions& o) { o.lobes = lobes; });
   for (const MixtureOrder order :
        {MixtureOrder::kColours, MixtureOrder::kScanline, MixtureOrder::kIndependent})
     add(fmt::format("alignment={}", mixtureOrderName(order)),
         order == ShadingOptions{}.mixture_order,
         [order](ShadingOptions& o) { o.mixture_order = order; });
-  for (const int probes : kProbeCounts)
-    add(fmt::format("probes={}", probes), probes == default_probes,
-        [probes](ShadingOptions& o) { o.anisotropy = probes; });
-  for (const bool half : {false, true})
-    add(half ? "texels=half" : "texels=float", !half,
-        [half](ShadingOptions& o) { o.half_texels = half; });
+  knobs.moveTo(all, {"probes", "texels"});
   for (const int iterations : kIterations)
-    add(fmt::format("fit_iterations={}", iterations), iterations == default_iterations,
+    add(fmt::format("fit_iterations={}", iterations), iterations == MixtureOptions{}.max_iterations,
         [iterations](ShadingOptions& o) { o.mixture_iterations = iterations; });
-  for (const Rival& rival : kRivals)
-    all.push_back({fmt::format("method={}", rival.name),
-                   [method = rival.method](ShadingOptions& o) { o.normal_method = method; },
-                   kAccuracyRival});
+  knobs.moveRestTo(all);
   for (const int samples : kSupersamples)
     all.push_back({fmt::format("supersamples={}", samples), {}, kAccuracyRival, samples});
   return all;

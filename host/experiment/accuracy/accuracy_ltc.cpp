@@ -4,7 +4,7 @@
 #include "host/core/disk_cache.h"
 #include "host/core/error.h"
 #include "host/experiment/accuracy/accuracy_truth.h"
-#include "host/experiment/tao21/tao21_table.h"
+#include "host/experiment/accuracy/knob_settings.h"
 #include "host/fit/ltc_fit.h"
 #include "host/report/accuracy_table.h"
 
@@ -13,7 +13,6 @@ namespace {
 
 constexpr int kTableSizes[] = {8, 16, 32, LTC_SIZE_DEFAULT, 128};
 constexpr int kMonteCarloSamples[] = {1, 4, 16, 64, 256, 1024};
-constexpr const char* kEdges[] = {"polynomial", "acos", "rational"};  // enum EdgeIntegral
 constexpr SampledTruthSettings kTruth = {PrincipalMetric::kRelMse, 320, 4096};
 
 // A fitted table of GGX, from the disk cache if it is there: a table of 128 takes most of a minute.
@@ -35,29 +34,19 @@ std::shared_ptr<const LtcTable> fittedTable(int size, int threads) {
 }
 
 std::vector<AccuracySetting> settings(int threads) {
+  KnobSettings knobs("ltc");
   std::vector<AccuracySetting> all;
-  const auto add = [&](const std::string& name, bool is_default,
-                       std::function<void(ShadingOptions&)> apply) {
-    all.push_back({name, std::move(apply), is_default ? kAccuracyDefault : kAccuracyKnob});
-  };
-  for (const LtcMethod method : {LtcMethod::kExact, LtcMethod::kTao21, LtcMethod::kOriginal})
-    add(fmt::format("method={}", kTao21Methods[static_cast<std::size_t>(method)]),
-        method == LtcMethod::kExact, [method](ShadingOptions& o) { o.ltc_method = method; });
+  knobs.moveTo(all, {"method"});
   for (const int size : kTableSizes)
-    add(fmt::format("table={}", size), size == LTC_SIZE_DEFAULT,
-        [size, threads, table = std::shared_ptr<const LtcTable>()](ShadingOptions& o) mutable {
-          if (!table) table = fittedTable(size, threads);
-          o.ltc_table = table;
-        });
-  for (const bool half : {false, true})
-    add(half ? "table_texels=half" : "table_texels=float", !half,
-        [half](ShadingOptions& o) { o.ltc_half = half; });
-  for (int edges = 0; edges < 3; ++edges)
-    add(fmt::format("edges={}", kEdges[edges]), edges == 0,
-        [edges](ShadingOptions& o) { o.edges = static_cast<EdgeIntegral>(edges); });
-  for (const bool clipless : {false, true})
-    add(clipless ? "horizon=clipless" : "horizon=clipped", !clipless,
-        [clipless](ShadingOptions& o) { o.clipless = clipless; });
+    all.push_back(
+        {fmt::format("table={}", size),
+         [size, threads, table = std::shared_ptr<const LtcTable>()](ShadingOptions& o) mutable {
+           if (!table) table = fittedTable(size, threads);
+           o.ltc_table = table;
+         },
+         size == LTC_SIZE_DEFAULT ? kAccuracyDefault : kAccuracyKnob});
+  knobs.moveTo(all, {"table_texels", "edges", "horizon"});
+  knobs.moveRestTo(all);
   for (const int samples : kMonteCarloSamples)
     all.push_back({fmt::format("mc_samples={}", samples), {}, kAccuracyRival, samples});
   return all;

@@ -1,0 +1,47 @@
+#include "host/experiment/accuracy/knob_settings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "host/core/error.h"
+#include "host/ocl/switches.h"
+#include "host/report/accuracy_table.h"
+
+namespace glintmark {
+namespace {
+
+AccuracySetting settingOf(const Switch& row, int value) {
+  const char* role = row.sweep.kind == Sweep::kRivals ? kAccuracyRival
+                     : value == row.standard          ? kAccuracyDefault
+                                                      : kAccuracyKnob;
+  return {fmt::format("{}={}", row.sweep.knob, row.nameOf(value)),
+          [macro = row.macro, value](ShadingOptions& o) { turnKnob(o, macro, value); }, role};
+}
+
+}  // namespace
+
+KnobSettings::KnobSettings(std::string_view effect) {
+  for (const Sweep::Kind kind : {Sweep::kKnob, Sweep::kRivals})
+    for (const Switch& row : allSwitches())
+      if (row.sweep.kind == kind && row.sweep.effect == effect)
+        for (const int value : row.sweep.values) settings_.push_back(settingOf(row, value));
+}
+
+void KnobSettings::moveTo(std::vector<AccuracySetting>& all,
+                          std::initializer_list<std::string_view> knobs) {
+  for (const std::string_view knob : knobs) {
+    const auto rest = std::ranges::stable_partition(
+        settings_, [&](const AccuracySetting& one) { return knobOf(one.name) != knob; });
+    if (rest.empty()) throw Error(fmt::format("the table of switches has no knob {}", knob));
+    std::ranges::move(rest, std::back_inserter(all));
+    settings_.erase(rest.begin(), rest.end());
+  }
+}
+
+void KnobSettings::moveRestTo(std::vector<AccuracySetting>& all) {
+  std::ranges::move(settings_, std::back_inserter(all));
+  settings_.clear();
+}
+
+}  // namespace glintmark
