@@ -18,6 +18,7 @@
 #include "host/experiment/tan05/tan05_bench.h"
 #include "host/experiment/tao21/tao21_bench.h"
 #include "host/experiment/zk16/zk16_bench.h"
+#include "host/frame/shading_options.h"
 #include "host/report/record/trace_file.h"
 
 namespace glintmark {
@@ -102,7 +103,7 @@ void addBenchCommand(CLI::App& app, CommandLine& line) {
       ->allow_extra_args(false);
   command->add_option("--size", options->size, "Image size (default: 1920x1080, the paper's)")
       ->type_name("WxH");
-  command->add_option("--method", options->method, "zk16 or exact (default: zk16)");
+  command->add_option("--method", options->method, methodHelp());
   command->add_option("--reps", options->reps, "Repetitions of every measurement (default: 9)");
   addOutputOptions(*command, *options);
   command->add_option("--trace", options->trace, "Also writes a Chrome/Perfetto trace of the run")

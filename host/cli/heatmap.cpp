@@ -10,6 +10,7 @@
 #include "host/core/error.h"
 #include "host/experiment/count_cells.h"
 #include "host/frame/frame_renderer.h"
+#include "host/frame/shading_options.h"
 #include "host/report/picture/heatmap.h"
 #include "host/report/picture/image_io.h"
 
@@ -19,7 +20,7 @@ namespace {
 struct HeatmapCommand {
   std::string scene = "screen_plane", view, size;
   std::string picture, exr, csv;
-  std::string scale = "fixed", method = "zk16";
+  std::string scale = "fixed", method = defaultMethod();
   bool sweep_angle = false;
 };
 
@@ -110,7 +111,7 @@ void addHeatmapCommand(CLI::App& app, CommandLine& line) {
   command->add_option("--size", options->size, "Image size (default: 1920x1080; sweep: 960x540)")
       ->type_name("WxH");
   command->add_option("--scale", options->scale, "fixed (8 to 64 cells) or auto (default: fixed)");
-  command->add_option("--method", options->method, "zk16 or exact (default: zk16)");
+  command->add_option("--method", options->method, methodHelp());
   command->add_flag("--sweep-angle", options->sweep_angle,
                     "A view that orbits a plane, from 90 to 1 degrees: picture strip and CSV");
   command->add_option("--csv", options->csv, "Figures of the sweep, one line per angle")

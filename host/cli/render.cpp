@@ -10,6 +10,7 @@
 #include "host/core/error.h"
 #include "host/core/trace.h"
 #include "host/frame/frame_renderer.h"
+#include "host/frame/shading_options.h"
 #include "host/report/picture/aov.h"
 #include "host/report/picture/image_io.h"
 #include "host/report/picture/star.h"
@@ -21,7 +22,7 @@ namespace {
 
 struct RenderOptions {
   std::string scene, view, output, aov_output, trace;
-  std::string size = "1920x1080", method = "zk16";
+  std::string size = "1920x1080", method = defaultMethod();
   bool no_glints = false;
   bool star = false, star_chosen = false;
   std::optional<double> exposure;
@@ -110,7 +111,7 @@ void addRenderCommand(CLI::App& app, CommandLine& line) {
       ->type_name("FILE");
   command->add_option("--trace", options->trace, "Chrome/Perfetto trace of host and device")
       ->type_name("FILE");
-  command->add_option("--method", options->method, "zk16 or exact (default: zk16)");
+  command->add_option("--method", options->method, methodHelp());
   command->add_flag("--no-glints", options->no_glints, "Smooth lobes in place of glints");
   const CLI::Option* star = command->add_flag("--star,!--no-star", options->star,
                                               "Star-shaped glare (default: the scene's for PNG)");

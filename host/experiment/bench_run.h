@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host/experiment/session.h"
+#include "host/frame/shading_options.h"
 #include "host/ocl/compute.h"
 #include "host/report/record/folder_lock.h"
 #include "host/report/record/record.h"
@@ -18,7 +19,7 @@ namespace glintmark {
 
 struct BenchOptions {
   std::vector<std::string> scenes, views;  // empty: all
-  std::string size = "1920x1080", method = "zk16";
+  std::string size = "1920x1080", method = defaultMethod();
   int reps = 9;
   std::string folder = "results/latest";
   std::string json, csv;  // further copies, empty for none

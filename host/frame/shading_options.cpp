@@ -30,4 +30,12 @@ GlintMethod parseMethod(const std::string& name) {
   return parseChoice<GlintMethod>(name, "method");
 }
 
+std::string defaultMethod() {
+  return choiceName(ShadingOptions{}.method);
+}
+
+std::string methodHelp() {
+  return fmt::format("{} (default: {})", listOf(namesOf<GlintMethod>(), "or"), defaultMethod());
+}
+
 }  // namespace glintmark

@@ -47,5 +47,8 @@ void turnKnob(ShadingOptions& options, std::string_view macro, int value);
 
 /// "zk16" or "exact"; throws Error listing the two.
 GlintMethod parseMethod(const std::string& name);
+/// The same by default, and what a help text says of all: "zk16 or exact (default: zk16)".
+std::string defaultMethod();
+std::string methodHelp();
 
 }  // namespace glintmark

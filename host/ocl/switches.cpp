@@ -148,11 +148,16 @@ std::optional<int> findChoice(std::span<const Choice> choices, std::string_view 
   return static_cast<int>(found - choices.begin());
 }
 
-void throwUnknownChoice(std::span<const Choice> choices, const std::string& name,
-                        const std::string& what) {
+std::vector<std::string> namesOf(std::span<const Choice> choices) {
   std::vector<std::string> names;
   for (const Choice& choice : choices) names.emplace_back(choice.name);
-  throw Error(fmt::format("unknown {} '{}'; {}s are {}", what, name, what, listOf(names, "and")));
+  return names;
+}
+
+void throwUnknownChoice(std::span<const Choice> choices, const std::string& name,
+                        const std::string& what) {
+  throw Error(fmt::format("unknown {} '{}'; {}s are {}", what, name, what,
+                          listOf(namesOf(choices), "and")));
 }
 
 }  // namespace glintmark

@@ -77,6 +77,13 @@ std::string choiceName(T value) {
   return std::string(choicesOf<T>()[static_cast<std::size_t>(value)].name);
 }
 
+/// The names of all choices, in order.
+std::vector<std::string> namesOf(std::span<const Choice> choices);
+template <typename T>
+std::vector<std::string> namesOf() {
+  return namesOf(choicesOf<T>());
+}
+
 /// Throws Error "unknown `what` ..." listing the choices.
 [[noreturn]] void throwUnknownChoice(std::span<const Choice> choices, const std::string& name,
                                      const std::string& what);

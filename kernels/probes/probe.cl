@@ -1,9 +1,6 @@
 // Probes of a device: sizes of the shared structs, peak of fused multiply-adds, bandwidth.
+#include "config.clh"
 #include "types.h"
-
-#ifndef WIDTH
-#define WIDTH 1
-#endif
 
 #if WIDTH == 1
 typedef float probe_float;
@@ -11,10 +8,8 @@ typedef float probe_float;
 typedef float4 probe_float;
 #elif WIDTH == 8
 typedef float8 probe_float;
-#elif WIDTH == 16
-typedef float16 probe_float;
 #else
-#error WIDTH must be 1, 4, 8 or 16
+typedef float16 probe_float;
 #endif
 
 #define OFFSET_OF(object, member) ((uint)((char*)&(object).member - (char*)&(object)))
