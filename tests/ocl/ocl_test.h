@@ -97,7 +97,8 @@ class ProbeKernelsTest : public OclTest {
   ProbeKernelsTest() {
     const std::filesystem::path project = std::filesystem::path(GLINTMARK_SOURCE_DIR) / "kernels";
     std::filesystem::copy(project / "probes", kernels_ / "probes");
-    std::filesystem::copy(project / "types.h", kernels_);
+    for (const char* file : {"config.clh", "types.h"})
+      std::filesystem::copy(project / file, kernels_);
   }
 };
 
