@@ -47,14 +47,14 @@ kernel void shade(global const uint* planes, constant const FrameParams* frame,
 #if NORMAL_MAP
                   constant const MipTexture* map, global const float4* map_texels,
 #endif
-#if SCATTERING
-                  constant const MultiscatterMaterial* scatter,
-#endif
 #if LTC
                   constant const AreaLightParams* area_lights, global const float* ltc_table,
 #if LIGHT_TEXTURE
                   constant const MipTexture* pictures, global const float4* picture_texels,
 #endif
+#endif
+#if SCATTERING
+                  constant const MultiscatterMaterial* scatter,
 #endif
 #if ALL_MATERIALS
                   global const uint* owners,

@@ -137,7 +137,7 @@ kernel void truth(global const uint* planes, constant const FrameParams* frame,
                   constant const GlintMaterial* material, constant const LightParams* lights,
                   constant const float4* taps,
 #if NORMAL_MAP
-                  constant const MipTexture* map, global const float4* normals,
+                  constant const MipTexture* map, global const float4* map_texels,
 #endif
 #if LTC
                   constant const AreaLightParams* area_lights, global const float* ltc_table,
@@ -159,7 +159,7 @@ kernel void truth(global const uint* planes, constant const FrameParams* frame,
     const SurfaceSample sample = sampleSurface(&surface, sample_begin + i, frame
 #if NORMAL_MAP
                                                ,
-                                               map, normals
+                                               map, map_texels
 #endif
     );
     vfloat3 value = {(vfloat)(0.0f), (vfloat)(0.0f), (vfloat)(0.0f)};

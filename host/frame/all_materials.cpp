@@ -2,60 +2,20 @@
 
 #include <algorithm>
 
-#include "host/core/error.h"
-#include "host/frame/effect/multiscatter.h"
 #include "host/frame/effects.h"
+#include "host/ocl/upload.h"
 #include "host/raster/projection.h"
 
 namespace glintmark {
-namespace {
 
-template <typename T>
-Buffer upload(Device& device, const std::vector<T>& items, const std::string& what) {
-  Buffer buffer(device, items.size() * sizeof(T), what);
-  buffer.write(items.data(), items.size() * sizeof(T));
-  return buffer;
-}
-
-// Layouts of all materials and the one texture that they share; without any, room that nobody
-// reads.
-void uploadMap(Device& device, const Scene& scene, const ShadingOptions& options,
-               const KernelConfig& config, NormalTextures& textures, MaterialArrays& arrays) {
-  std::vector<MipTexture> layouts(scene.materials.size());
-  std::shared_ptr<const NormalMap> map;
-  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-    const auto& source = scene.materials[i].normal_map;
-    if (!source) continue;
-    if (map && map != source->map)
-      throw Error("one program for all materials needs one normal map; the scene has several");
-    map = source->map;
-    textures.get(map, config, options.mixture_order, options.mixture_iterations)
-        .layout.read(&layouts[i], sizeof(MipTexture));
-  }
-  arrays.map_layouts = upload(device, layouts, "the layouts of all normal maps");
-  arrays.map_texels =
-      map ? textures.get(map, config, options.mixture_order, options.mixture_iterations).texels
-          : Buffer(device, sizeof(float4), "no normal map");
-}
-
-}  // namespace
-
-MaterialArrays uploadMaterialArrays(Device& device, const Scene& scene,
-                                    const ShadingOptions& options, const KernelConfig& config,
-                                    NormalTextures& textures) {
-  MaterialArrays arrays;
+Buffer uploadMaterials(Device& device, const Scene& scene, const ShadingOptions& options,
+                       int lanes) {
   std::vector<GlintMaterial> materials;
-  std::vector<MultiscatterMaterial> scatter;
   for (const Material& material : scene.materials) {
-    const KernelConfig own = configFor(material, scene, options, config.width);
     materials.push_back(material.glint);
-    materials.back().effects = effectBits(own);
-    scatter.push_back(prepareMultiscatter(material, own));
+    materials.back().effects = effectBits(configFor(material, scene, options, lanes));
   }
-  arrays.materials = upload(device, materials, "all materials");
-  arrays.scatter = upload(device, scatter, "the scattering of all materials");
-  uploadMap(device, scene, options, config, textures, arrays);
-  return arrays;
+  return upload(device, materials, BufferPurpose::kMaterials);
 }
 
 std::vector<std::uint32_t> entryOwners(const PixelPlanes& planes) {

@@ -1,25 +1,19 @@
-// What a program for all materials of a scene reads in place of one material's own buffers.
+// What a program for all materials of a scene reads in place of one material's, and the order of
+// its pixels.
 #pragma once
 #include <cstdint>
 #include <vector>
 
 #include "host/core/planes.h"
-#include "host/frame/frame_renderer.h"
+#include "host/frame/shading_options.h"
 #include "host/ocl/compute.h"
+#include "host/scene/scene.h"
 
 namespace glintmark {
 
-/// Arrays with one element for each material of the scene.
-struct MaterialArrays {
-  Buffer materials, scatter;
-  Buffer map_layouts, map_texels;
-};
-
-/// Makes and uploads them for `config`, which configForAll() gave. Throws Error if the scene has
-/// more than one normal map: their texels would have to share a buffer.
-MaterialArrays uploadMaterialArrays(Device& device, const Scene& scene,
-                                    const ShadingOptions& options, const KernelConfig& config,
-                                    NormalTextures& textures);
+/// The materials of the scene as an array, each with the effects of its own program.
+Buffer uploadMaterials(Device& device, const Scene& scene, const ShadingOptions& options,
+                       int lanes);
 
 /// The material of every entry of the planes, padding included.
 std::vector<std::uint32_t> entryOwners(const PixelPlanes& planes);

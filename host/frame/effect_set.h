@@ -1,27 +1,21 @@
 // Effects by name, and scenes stripped of those that are not wanted: what `bench effects` and the
 // tests of specialisation turn on and off.
 #pragma once
+#include <cstddef>
 #include <initializer_list>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "host/frame/frame_renderer.h"
+#include "host/frame/shading_options.h"
 #include "host/scene/scene.h"
 
 namespace glintmark {
 
-/// What a scene can call for beyond smooth lobes under cone lights, in the order of their names.
+/// What a scene can call for beyond smooth lobes under cone lights.
 enum class Effect : unsigned {
-  kGlints,        // 2-D microdetails [ZK16]
-  kGrooves,       // 1-D microdetails, [ZK16] Eq. 6
-  kColour,        // a colour for each microdetail; needs glints
-  kNormals,       // a normal map, as mixtures of Gaussians [TAN05]; under area lights its mean
-  kLtc,           // area lights [HDHN16]
-  kMultiscale,    // area lights read how the map varies [TAO21]; needs normals and ltc
-  kMultiscatter,  // rough diffuse facets [PAT18]
-  kCompensation,  // what metals lose to further bounces
-  kEnvironment,   // cones cut from an environment map
+#define EFFECT(enumerator, module) enumerator,
+#include "host/frame/effect/all_effects.inc"
   kCount
 };
 inline constexpr std::size_t kEffectCount = static_cast<std::size_t>(Effect::kCount);
@@ -39,6 +33,7 @@ class EffectSet {
   constexpr EffectSet without(EffectSet other) const { return EffectSet(bits_ & ~other.bits_); }
   constexpr bool operator==(const EffectSet&) const = default;
   std::vector<Effect> list() const;
+  static EffectSet all();
 
  private:
   explicit constexpr EffectSet(unsigned bits) : bits_(bits) {}
@@ -54,6 +49,8 @@ EffectSet effectNeeds(Effect effect);
 
 /// What the scene's materials and lights call for.
 EffectSet effectsOf(const Scene& scene);
+/// What a program holds.
+EffectSet effectsOf(const KernelConfig& config);
 /// The scene without the effects that are not in `kept`; smooth lobes and Lambert's stand in.
 Scene withEffects(Scene scene, EffectSet kept);
 /// Options under which such a scene shows `kept` and no more.

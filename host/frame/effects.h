@@ -1,7 +1,8 @@
 // Which effects, and so which planes, a scene calls for. Nobody lists them by hand.
 #pragma once
 #include "host/core/planes.h"
-#include "host/frame/frame_renderer.h"
+#include "host/core/shared_types.h"
+#include "host/frame/shading_options.h"
 #include "host/ocl/kernel_config.h"
 #include "host/scene/scene.h"
 
@@ -15,6 +16,10 @@ PlaneMask planesFor(const KernelConfig& config);
 KernelConfig configFor(const Material& material, const Scene& scene, const ShadingOptions& options,
                        int lanes);
 
+/// The same for the program of the ground truth, kernels/truth.cl, which has no knobs.
+KernelConfig truthConfigFor(const Material& material, const Scene& scene,
+                            const ShadingOptions& options, int lanes);
+
 /// The same for one program that holds every effect, whether the scene calls for it or not, and
 /// branches on each pixel's material. What is a choice and no effect (light cones, methods, lobes,
 /// the model of multiple scattering, the NDF) is the scene's. Throws Error if materials differ in
@@ -24,7 +29,8 @@ KernelConfig configForAll(const Scene& scene, const ShadingOptions& options, int
 /// EFFECT_* bits of kernels/types.h that the material's kernel holds.
 uint effectBits(const KernelConfig& config);
 
-/// Planes that the programs of the frame read.
+/// Planes that the programs of the frame read, and those of its ground truth.
 PlaneMask planesFor(const Scene& scene, const ShadingOptions& options);
+PlaneMask truthPlanesFor(const Scene& scene, const ShadingOptions& options);
 
 }  // namespace glintmark

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "host/core/error.h"
+#include "host/core/trace.h"
+#include "host/frame/frame_readback.h"
 
 namespace glintmark {
 namespace {
@@ -16,26 +18,54 @@ constexpr double kBatchSamples = 8e6;
 
 }  // namespace
 
+TruthRenderer::TruthRenderer(Device& device, const Scene& scene, const View& view,
+                             const ShadingOptions& options, int thread_count,
+                             std::shared_ptr<NormalTextures> textures)
+    : pass_(kTruthPass, device, scene, view, options, thread_count, std::move(textures)) {}
+
+FrameTimes TruthRenderer::addSamples(std::uint32_t begin, std::uint32_t count) {
+  const TraceScope scope("frame", "truth samples");
+  const std::pair<std::string, KernelArg> last[] = {{"sample_begin", begin},
+                                                    {"sample_count", count}};
+  return pass_.launch(last);
+}
+
+Image TruthRenderer::readSum() const {
+  double readback_ns = 0;
+  return readPlanes(pass_, 0, readback_ns);
+}
+
+Image TruthRenderer::readSquares() const {
+  double readback_ns = 0;
+  return readPlanes(pass_, 3, readback_ns);
+}
+
+Image TruthRenderer::readMean(std::uint32_t count) const {
+  Image image = readSum();
+  for (std::size_t i = 0; i < image.pixels.size(); ++i)
+    if (i % 4 != 3) image.pixels[i] /= static_cast<float>(count);
+  return image;
+}
+
 TruthImages renderTruth(Device& device, const Scene& scene, const View& view,
-                        ShadingOptions options, int spp,
+                        const ShadingOptions& options, int spp,
                         const std::function<void(int done)>& progress, int thread_count,
                         std::shared_ptr<NormalTextures> textures) {
   if (spp < 1 || spp > kMostSpp)
     throw Error(fmt::format("{} samples a pixel are not from 1 to {}", spp, kMostSpp));
-  options.truth = true;
-  FrameRenderer renderer(device, scene, view, options, thread_count, std::move(textures));
+  TruthRenderer renderer(device, scene, view, options, thread_count, std::move(textures));
   renderer.prepare();
   const Camera& camera = renderer.camera();
   const double pixels = static_cast<double>(camera.width_px) * camera.height_px;
   const int batch = std::max(1, static_cast<int>(kBatchSamples / pixels));
   for (int done = 0; done < spp;) {
     const int count = std::min(batch, spp - done);
-    renderer.addTruthSamples(static_cast<std::uint32_t>(done), static_cast<std::uint32_t>(count));
+    renderer.addSamples(static_cast<std::uint32_t>(done), static_cast<std::uint32_t>(count));
     done += count;
     if (progress) progress(done);
   }
 
-  TruthImages truth{renderer.readRadiance(), Image(camera.width_px, camera.height_px, 3)};
+  TruthImages truth{renderer.readSum(), Image(camera.width_px, camera.height_px, 3)};
   const Image squares = renderer.readSquares();
   const auto n = static_cast<float>(spp);
   for (std::size_t i = 0; i < squares.pixels.size() / 4; ++i)

@@ -34,7 +34,6 @@ struct ShadingOptions {
   int mixture_iterations = 0;  // EM steps of a texel in the fit; 0: the fit's default
   Programs programs = Programs::kPerMaterial;
   std::shared_ptr<const LtcTable> ltc_table{};  // in place of the shipped table of its NDF
-  bool truth = false;  // supersample instead of shading: addTruthSamples() in place of shade()
 };
 
 /// Hands the knobs of an effect, a flag like &KernelConfig::glint or kEveryProgram, to a program

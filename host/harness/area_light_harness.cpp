@@ -15,7 +15,8 @@ constexpr const char* kProbes = "probes/probe_area_light.cl";
 
 template <typename T>
 Buffer upload(const std::vector<T>& items) {
-  Buffer buffer(KernelBench::shared().device, items.size() * sizeof(T), "probe input");
+  Buffer buffer(KernelBench::shared().device, items.size() * sizeof(T), BufferPurpose::kProbe,
+                "probe input");
   buffer.write(items.data(), items.size() * sizeof(T));
   return buffer;
 }
@@ -48,7 +49,7 @@ std::vector<glm::vec3> lightPoints(const AreaLightProbe& probe,
   std::size_t vertices = 3;
   for (const AreaLight& light : probe.lights) vertices = std::max(vertices, light.vertices.size());
   const bool diffuse = probe.material.albedo.x > 0;
-  Buffer out(KernelBench::shared().device, 3 * stride * 4, "probe output");
+  Buffer out(KernelBench::shared().device, 3 * stride * 4, BufferPurpose::kProbe, "probe output");
   const std::vector<KernelArg> args = {upload(pointPlanes(points, stride)),
                                        upload(std::vector{probe.material}),
                                        upload(prepareAreaLights(probe.lights, glm::dvec3(0))),
@@ -74,7 +75,8 @@ std::vector<float> footprintAlphas(LtcMethod method, float micro, const std::vec
                                    int width) {
   std::vector<float> padded = lengths;
   padded.resize(paddedCount(lengths.size()), lengths.back());
-  Buffer out(KernelBench::shared().device, padded.size() * 4, "probe output");
+  Buffer out(KernelBench::shared().device, padded.size() * 4, BufferPurpose::kProbe,
+             "probe output");
   const std::vector<KernelArg> args = {upload(padded), out,
                                        static_cast<std::uint32_t>(padded.size()), micro};
   probeKernel(kProbes, "probeFootprintAlpha",

@@ -8,6 +8,8 @@
 #include "host/core/planes.h"
 #include "host/frame/effect/lights.h"
 #include "host/frame/effects.h"
+#include "host/frame/shade_arguments.h"
+#include "host/ocl/upload.h"
 
 namespace glintmark {
 namespace {
@@ -48,11 +50,8 @@ std::vector<std::uint32_t> planeWords(const HandMadeFrame& frame, PlaneMask mask
 }
 
 template <typename T>
-Buffer upload(Device& device, std::vector<T> items) {
-  if (items.empty()) items.resize(1);
-  Buffer buffer(device, items.size() * sizeof(T), "test data");
-  buffer.write(items.data(), items.size() * sizeof(T));
-  return buffer;
+Buffer probeData(Device& device, const std::vector<T>& items) {
+  return upload(device, items, BufferPurpose::kProbe);
 }
 
 FrameParams paramsOf(const HandMadeFrame& frame, std::size_t stride) {
@@ -97,20 +96,19 @@ ShadedPixels shadePixels(const HandMadeFrame& frame, KernelConfig config) {
   const std::size_t stride = (n + GM_LIST_PADDING - 1) / GM_LIST_PADDING * GM_LIST_PADDING;
 
   PreparedLights lights = prepareLights(frame.lights);
-  Buffer radiance(device, stride * 12, "radiance");
-  Buffer counts(device, stride * 4, "counts");
-  std::vector<KernelArg> args = {upload(device, planeWords(frame, config.planes, stride)),
-                                 upload(device, std::vector{paramsOf(frame, stride)}),
-                                 upload(device, std::vector{frame.material}),
-                                 upload(device, lights.lights), upload(device, lights.taps)};
-  if (frame.scatter) args.emplace_back(upload(device, std::vector{*frame.scatter}));
-  args.emplace_back(radiance);
-  if (config.count_cells) args.emplace_back(counts);
+  Buffer radiance(device, stride * 12, BufferPurpose::kProbe, "radiance");
+  Buffer counts(device, stride * 4, BufferPurpose::kProbe, "counts");
+  ShadeArguments arguments({.planes = probeData(device, planeWords(frame, config.planes, stride)),
+                            .frame = probeData(device, std::vector{paramsOf(frame, stride)}),
+                            .material = probeData(device, std::vector{frame.material}),
+                            .lights = probeData(device, lights.lights),
+                            .taps = probeData(device, lights.taps)});
+  if (frame.scatter) arguments.add("scatter", probeData(device, std::vector{*frame.scatter}));
+  arguments.add("radiance", radiance);
+  if (config.count_cells) arguments.add("cell_counts", counts);
   const auto lanes = static_cast<std::size_t>(config.width);
-  KernelBench::shared()
-      .cache.get("shade.cl", config)
-      .kernel("shade")
-      .launch(args, (n + lanes - 1) / lanes, kLocalSize);
+  Kernel kernel = KernelBench::shared().cache.get("shade.cl", config).kernel("shade");
+  launchShading(kernel, arguments, (n + lanes - 1) / lanes, kLocalSize);
 
   std::vector<float> words(stride * 3);
   radiance.read(words.data(), words.size() * 4);
@@ -162,8 +160,8 @@ glm::dvec2 deviceStretch(const GlintMaterial& material) {
   Device& device = KernelBench::shared().device;
   const std::vector<float4> alphas = {
       {material.alpha_g.x, material.alpha_g.y, material.alpha_l.x, material.alpha_l.y}};
-  Buffer out(device, 8, "stretch");
-  const KernelArg args[] = {upload(device, alphas), out, std::uint32_t{1}};
+  Buffer out(device, 8, BufferPurpose::kProbe, "stretch");
+  const KernelArg args[] = {probeData(device, alphas), out, std::uint32_t{1}};
   probeKernel("probes/probe_glint.cl", "probeStretch", "-D WIDTH=1").launch(args, 1, kLocalSize);
   float2 stretch;
   out.read(&stretch, 8);

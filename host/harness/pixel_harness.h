@@ -10,7 +10,7 @@
 
 #include "host/core/frame_packing.h"
 #include "host/core/shared_types.h"
-#include "host/frame/effect/multiscatter.h"
+#include "host/frame/effect/scattering_params.h"
 #include "host/ocl/compute.h"
 #include "host/ocl/device.h"
 #include "host/reference/pixel.h"

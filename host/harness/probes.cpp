@@ -20,7 +20,8 @@ std::size_t paddedCount(std::size_t n) {
 template <typename T>
 Buffer upload(std::vector<T> values) {
   values.resize(paddedCount(values.size()), values.empty() ? T{} : values.back());
-  Buffer buffer(KernelBench::shared().device, values.size() * 4, "probe input");
+  Buffer buffer(KernelBench::shared().device, values.size() * 4, BufferPurpose::kProbe,
+                "probe input");
   buffer.write(values.data(), values.size() * 4);
   return buffer;
 }
@@ -39,7 +40,7 @@ void launch(const std::string& file, const std::string& name, const std::string&
 }
 
 Buffer makeOutput(std::size_t words) {
-  return Buffer(KernelBench::shared().device, words * 4, "probe output");
+  return Buffer(KernelBench::shared().device, words * 4, BufferPurpose::kProbe, "probe output");
 }
 
 }  // namespace

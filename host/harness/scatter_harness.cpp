@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "host/frame/effect/multiscatter.h"
+#include "host/frame/effect/scattering_params.h"
 #include "host/harness/pixel_harness.h"
 
 namespace glintmark {
@@ -60,9 +60,9 @@ std::vector<ScatteredRadiance> probeScatter(const std::vector<DirectionPair>& pa
     }
   }
   const MultiscatterMaterial prepared = prepareMultiscatter(material, config);
-  Buffer input(device, in.size() * 4, "directions");
-  Buffer scatter(device, sizeof prepared, "a material's scattering");
-  Buffer output(device, out.size() * 4, "radiance");
+  Buffer input(device, in.size() * 4, BufferPurpose::kProbe, "directions");
+  Buffer scatter(device, sizeof prepared, BufferPurpose::kProbe, "a material's scattering");
+  Buffer output(device, out.size() * 4, BufferPurpose::kProbe, "radiance");
   input.write(in.data(), in.size() * 4);
   scatter.write(&prepared, sizeof prepared);
   const std::vector<KernelArg> args = {input, scatter, output, static_cast<std::uint32_t>(n)};

@@ -77,13 +77,13 @@ std::vector<FetchedTexel> fetchPixels(const TestTexture& texture, int texel_size
       planes[(2 + d) * n + i] = std::bit_cast<std::uint32_t>(derivatives[d]);
   }
   const auto upload = [&](const auto& items) {
-    Buffer buffer(device, items.size() * sizeof(items[0]), "texture test");
+    Buffer buffer(device, items.size() * sizeof(items[0]), BufferPurpose::kProbe, "texture test");
     buffer.write(items.data(), items.size() * sizeof(items[0]));
     return buffer;
   };
   const std::size_t components = 4 * static_cast<std::size_t>(texel_size);
   std::vector<float> words((components + 2) * n);
-  Buffer out(device, words.size() * 4, "texture test");
+  Buffer out(device, words.size() * 4, BufferPurpose::kProbe, "texture test");
   const std::vector<KernelArg> args = {upload(std::vector{texture.header}),
                                        upload(texture.texels),
                                        upload(planes),

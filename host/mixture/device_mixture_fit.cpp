@@ -136,13 +136,14 @@ class DeviceMixtureFit {
 
   void makeBuffers() {
     const auto words = [&](std::size_t count, const char* what) {
-      return Buffer(device_, count * 4, what);
+      return Buffer(device_, count * 4, BufferPurpose::kMixtureFit, what);
     };
     const std::size_t normals = map_.normals.size() + MF_SLOTS;
     normal_x_ = words(normals, "the map's normals");
     normal_y_ = words(normals, "the map's normals");
     state_ = words(result_.moments.texels.size() * 4, "the mixtures");
-    run_ = Buffer(device_, sizeof(MixtureFitRun), "the fit's parameters");
+    run_ =
+        Buffer(device_, sizeof(MixtureFitRun), BufferPurpose::kMixtureFit, "the fit's parameters");
     tally_ = words(2 * kTallyPairs, "the fit's tally");
     likelihood_ = words(map_.normals.size(), "the mixtures' likelihood");
     const std::size_t sums = MF_SUMS(options_.lobes);

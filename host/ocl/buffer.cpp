@@ -18,7 +18,9 @@ double mebibytes(unsigned long long bytes) {
 }
 
 std::shared_ptr<Buffer::Impl> allocate(Device& device, std::size_t bytes, cl_mem_flags flags,
-                                       void* host, const std::string& what) {
+                                       void* host, BufferPurpose purpose,
+                                       const std::string& given_name) {
+  const std::string what = given_name.empty() ? std::string(purposeName(purpose)) : given_name;
   const DeviceInfo& info = device.info();
   if (bytes > info.max_alloc_bytes)
     throw Error(fmt::format("{} needs {:.1f} MiB, but '{}' allows at most {:.1f} MiB per buffer",
@@ -26,6 +28,7 @@ std::shared_ptr<Buffer::Impl> allocate(Device& device, std::size_t bytes, cl_mem
   auto impl = std::make_shared<Buffer::Impl>();
   impl->queue = device.impl().queue;
   impl->bytes = bytes;
+  impl->purpose = purpose;
   impl->what = what;
   try {
     impl->buffer = cl::Buffer(device.impl().context, flags, bytes, host);
@@ -35,7 +38,7 @@ std::shared_ptr<Buffer::Impl> allocate(Device& device, std::size_t bytes, cl_mem
                     what, info.name, mebibytes(info.global_mem_bytes)),
         error);
   }
-  device.impl().ledger->add(what, bytes);
+  device.impl().ledger->add(purpose, bytes);
   impl->ledger = device.impl().ledger;
   return impl;
 }
@@ -71,10 +74,13 @@ double timed(const std::string& doing, Transfer&& transfer) {
 
 }  // namespace
 
-Buffer::Buffer(Device& device, std::size_t bytes, const std::string& what)
-    : impl_(allocate(device, std::max(bytes, kMinBytes), CL_MEM_READ_WRITE, nullptr, what)) {}
+Buffer::Buffer(Device& device, std::size_t bytes, BufferPurpose purpose, const std::string& what)
+    : impl_(allocate(device, std::max(bytes, kMinBytes), CL_MEM_READ_WRITE, nullptr, purpose,
+                     what)) {}
 
-Buffer Buffer::wrapHost(Device& device, void* data, std::size_t bytes, const std::string& what) {
+Buffer Buffer::wrapHost(Device& device, void* data, std::size_t bytes, BufferPurpose purpose,
+                        const std::string& given_name) {
+  const std::string what = given_name.empty() ? std::string(purposeName(purpose)) : given_name;
   if (bytes == 0) throw Error(fmt::format("{} has no bytes to wrap; at least one is needed", what));
   if (!data || reinterpret_cast<std::uintptr_t>(data) % kPageBytes != 0)
     throw Error(fmt::format("{} cannot be wrapped because it is not aligned to {} bytes", what,
@@ -83,7 +89,7 @@ Buffer Buffer::wrapHost(Device& device, void* data, std::size_t bytes, const std
   Buffer buffer;
   buffer.impl_ = allocate(device, bytes,
                           CL_MEM_READ_WRITE | (in_place ? CL_MEM_USE_HOST_PTR : cl_mem_flags{0}),
-                          in_place ? data : nullptr, what);
+                          in_place ? data : nullptr, purpose, what);
   return buffer;
 }
 

@@ -4,17 +4,17 @@
 
 namespace glintmark {
 
-void BufferLedger::add(const std::string& what, std::size_t bytes) {
+void BufferLedger::add(BufferPurpose purpose, std::size_t bytes) {
   const std::scoped_lock lock(mutex_);
-  for (BufferBytes* count : {&use_.by_purpose[what], &use_.total}) {
+  for (BufferBytes* count : {&use_.by_purpose[purpose], &use_.total}) {
     count->held += bytes;
     count->peak = std::max(count->peak, count->held);
   }
 }
 
-void BufferLedger::remove(const std::string& what, std::size_t bytes) {
+void BufferLedger::remove(BufferPurpose purpose, std::size_t bytes) {
   const std::scoped_lock lock(mutex_);
-  use_.by_purpose[what].held -= bytes;
+  use_.by_purpose[purpose].held -= bytes;
   use_.total.held -= bytes;
 }
 
@@ -26,7 +26,7 @@ BufferUse BufferLedger::use() const {
 void BufferLedger::resetPeaks() {
   const std::scoped_lock lock(mutex_);
   std::erase_if(use_.by_purpose, [](const auto& entry) { return entry.second.held == 0; });
-  for (auto& [what, count] : use_.by_purpose) count.peak = count.held;
+  for (auto& [purpose, count] : use_.by_purpose) count.peak = count.held;
   use_.total.peak = use_.total.held;
 }
 

@@ -6,7 +6,9 @@
 #include <span>
 #include <string>
 #include <variant>
+#include <vector>
 
+#include "host/ocl/buffer_purpose.h"
 #include "host/ocl/device.h"
 #include "host/ocl/kernel_config.h"
 
@@ -16,11 +18,12 @@ namespace glintmark {
 class Buffer {
  public:
   Buffer() = default;
-  /// Fresh device memory of `bytes` (at least 4 are allocated). Throws Error naming size and
-  /// device.
-  Buffer(Device& device, std::size_t bytes, const std::string& what);
+  /// Fresh device memory of `bytes` (at least 4 are allocated). Messages call it by its purpose, or
+  /// by `what`, if given. Throws Error naming size and device.
+  Buffer(Device& device, std::size_t bytes, BufferPurpose purpose, const std::string& what = "");
   /// Wraps page-aligned host memory: used in place on CPU devices (zero copy), else a device copy.
-  static Buffer wrapHost(Device& device, void* data, std::size_t bytes, const std::string& what);
+  static Buffer wrapHost(Device& device, void* data, std::size_t bytes, BufferPurpose purpose,
+                         const std::string& what = "");
 
   /// Host to device; returns wall time [ns]. For wrapped memory the source must be that memory and
   /// the call is free on devices that use it in place.
@@ -56,6 +59,11 @@ class Kernel {
   LaunchTimes launch(std::span<const KernelArg> args, std::size_t global_size,
                      std::size_t local_size);
   double firstEnqueueNs() const;  // sum of wall times of first launches
+  /// The names of the parameters in the source, in order; empty where the device does not keep
+  /// them.
+  const std::vector<std::string>& parameterNames() const;
+  /// Its function's name in the source.
+  const std::string& name() const;
 
   struct Impl;
   explicit Kernel(std::shared_ptr<Impl> impl) : impl_(std::move(impl)) {}

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "host/ocl/buffer_purpose.h"
+
 namespace glintmark {
 
 struct DeviceInfo {
@@ -32,9 +34,9 @@ struct BufferBytes {
   std::size_t held = 0, peak = 0;
 };
 
-/// What was really allocated on a device, by purpose (the name that each buffer was made with).
+/// What was really allocated on a device, by purpose.
 struct BufferUse {
-  std::map<std::string, BufferBytes> by_purpose;
+  std::map<BufferPurpose, BufferBytes> by_purpose;
   BufferBytes total;
 };
 

@@ -70,6 +70,16 @@ LaunchTimes Kernel::launch(std::span<const KernelArg> args, std::size_t global_s
   return times;
 }
 
+const std::vector<std::string>& Kernel::parameterNames() const {
+  if (!impl_) throw Error("an empty kernel was asked for its parameters");
+  return impl_->parameter_names;
+}
+
+const std::string& Kernel::name() const {
+  if (!impl_) throw Error("an empty kernel was asked for its name");
+  return impl_->name;
+}
+
 double Kernel::firstEnqueueNs() const {
   return impl_ ? impl_->first_enqueue_ns : 0;
 }

@@ -12,6 +12,7 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "host/core/error.h"
 #include "host/ocl/compute.h"
@@ -28,8 +29,8 @@ Error openClError(const std::string& doing, const cl::Error& error);
 /// Counts the bytes of a device's buffers; outlives the device while buffers do.
 class BufferLedger {
  public:
-  void add(const std::string& what, std::size_t bytes);
-  void remove(const std::string& what, std::size_t bytes);
+  void add(BufferPurpose purpose, std::size_t bytes);
+  void remove(BufferPurpose purpose, std::size_t bytes);
   BufferUse use() const;
   void resetPeaks();
 
@@ -48,12 +49,13 @@ struct Device::Impl {
 
 struct Buffer::Impl {
   ~Impl() {
-    if (ledger) ledger->remove(what, bytes);
+    if (ledger) ledger->remove(purpose, bytes);
   }
   cl::Buffer buffer;
   cl::CommandQueue queue;
   std::size_t bytes = 0;
-  std::string what;
+  BufferPurpose purpose = BufferPurpose::kProbe;
+  std::string what;                      // as messages call it
   std::shared_ptr<BufferLedger> ledger;  // set once the buffer is there
 };
 
@@ -63,6 +65,7 @@ struct Kernel::Impl {
   std::string name;
   std::set<std::pair<std::size_t, bool>> launched;  // local size, small grid
   double first_enqueue_ns = 0;
+  std::vector<std::string> parameter_names{};
 };
 
 /// A program for one device; shared by all Program handles that the cache gave out.

@@ -48,7 +48,8 @@ double measureGflops(Device& device, const Program& program, int lanes) {
   const std::size_t local_size =
       std::min<std::size_t>(info.is_cpu ? 8 : 256, info.max_work_group_size);
   const std::size_t items = local_size * std::max(info.compute_units, 1u) * 32;
-  Buffer values(device, items * static_cast<std::size_t>(lanes) * sizeof(float), "the FMA probe");
+  Buffer values(device, items * static_cast<std::size_t>(lanes) * sizeof(float),
+                BufferPurpose::kProbe, "the FMA probe");
   values.fillZero();
 
   Kernel kernel = program.kernel("probeFma");
@@ -82,8 +83,9 @@ double measureGbs(Device& device, const Program& program, int lanes) {
   const auto count =
       static_cast<std::uint32_t>(bytes / sizeof(float) / static_cast<std::size_t>(lanes));
   const std::size_t local_size = std::min(256u, info.max_work_group_size);
-  Buffer a(device, bytes, "the bandwidth probe"), b(device, bytes, "the bandwidth probe"),
-      c(device, bytes, "the bandwidth probe");
+  Buffer a(device, bytes, BufferPurpose::kProbe, "the bandwidth probe"),
+      b(device, bytes, BufferPurpose::kProbe, "the bandwidth probe"),
+      c(device, bytes, BufferPurpose::kProbe, "the bandwidth probe");
 
   Kernel fill = program.kernel("probeFill");
   fill.launch(std::array<KernelArg, 3>{a, 0.0f, count}, count, local_size);

@@ -10,6 +10,23 @@ const Program::Impl& nonEmpty(const std::shared_ptr<Program::Impl>& impl) {
   return *impl;
 }
 
+// Drivers may keep no names, although the build asked for them (-cl-kernel-arg-info).
+std::vector<std::string> parameterNames(const cl::Kernel& kernel) {
+  std::vector<std::string> names;
+  try {
+    const auto count = kernel.getInfo<CL_KERNEL_NUM_ARGS>();
+    for (cl_uint i = 0; i < count; ++i) {
+      std::string name = kernel.getArgInfo<CL_KERNEL_ARG_NAME>(i);
+      while (!name.empty() && name.back() == '\0') name.pop_back();  // C++ bindings before 2.0.10
+      if (name.empty()) return {};
+      names.push_back(std::move(name));
+    }
+  } catch (const cl::Error&) {
+    return {};
+  }
+  return names;
+}
+
 }  // namespace
 
 Kernel Program::kernel(const std::string& name) const {
@@ -21,6 +38,7 @@ Kernel Program::kernel(const std::string& name) const {
     made->kernel = cl::Kernel(built.program, name.c_str());
     made->queue = built.queue;
     made->name = name;
+    made->parameter_names = parameterNames(made->kernel);
     kernel = std::move(made);
   } catch (const cl::Error& error) {
     built.kernels.erase(name);

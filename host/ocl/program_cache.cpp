@@ -81,7 +81,7 @@ Program ProgramCache::Impl::build(const std::string& file, const std::string& ow
   if (!fs::is_regular_file(fs::path(folder) / file))
     throw Error(fmt::format("kernel file '{}' is not in the kernel folder '{}'", file, folder));
 
-  std::string options = own_options + " -cl-std=CL1.2";
+  std::string options = own_options + " -cl-std=CL1.2 -cl-kernel-arg-info";
   if (info.correctly_rounded_divide_sqrt) options += " -cl-fp32-correctly-rounded-divide-sqrt";
   const std::uint64_t hash = hashKernels(folder);
   const std::string name = fmt::format("{}\n{}\n{}\n{}\n", file, options, info.name, info.platform);

@@ -138,10 +138,11 @@ void Simulator::prepare(const SimulationSettings& settings) {
                .kernel("traceRays");
   const HeightfieldRun run =
       makeRun(settings, surface_->countHeight(), raysPerItem(device_) / laneCount(lanes_));
-  run_ = Buffer(device_, sizeof run, "the simulation's parameters");
+  run_ = Buffer(device_, sizeof run, BufferPurpose::kSimulation, "the simulation's parameters");
   run_.write(&run, sizeof run);
   if (outcomes_.empty()) {
-    outcomes_ = Buffer(device_, (kRaysPerSurface + kMostLanes) * 4, "the rays' outcomes");
+    outcomes_ = Buffer(device_, (kRaysPerSurface + kMostLanes) * 4, BufferPurpose::kSimulation,
+                       "the rays' outcomes");
     words_.resize(kRaysPerSurface);
   }
   settings_ = settings;

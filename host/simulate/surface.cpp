@@ -16,7 +16,7 @@ constexpr std::size_t kLocalSize = 16;
 constexpr double kMostDeviations = 6;
 
 Buffer upload(Device& device, const std::vector<float>& values, const char* what) {
-  Buffer buffer(device, values.size() * sizeof(float), what);
+  Buffer buffer(device, values.size() * sizeof(float), BufferPurpose::kSimulation, what);
   buffer.write(values.data(), values.size() * sizeof(float));
   return buffer;
 }
@@ -71,7 +71,7 @@ SurfaceMaker::SurfaceMaker(Device& device, ProgramCache& cache, double correlati
   cosines_ = upload(device, waveTable(std::cos), "the surface's waves");
   sines_ = upload(device, waveTable(std::sin), "the surface's waves");
   const auto words = [&](std::size_t count, const char* what) {
-    return Buffer(device, count * 4, what);
+    return Buffer(device, count * 4, BufferPurpose::kSimulation, what);
   };
   modes_ = words(std::size_t{2} * HF_MODES * HF_MODE_ROWS, "the surface's modes");
   columns_ = words(std::size_t{2} * HF_MODES * HF_TILE, "the surface's columns");

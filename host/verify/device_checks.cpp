@@ -15,7 +15,7 @@ template <std::size_t N>
 void addDifferences(Finding& finding, const char* kernel,
                     const std::array<std::uint32_t, N>& wanted) {
   KernelBench& bench = KernelBench::shared();
-  Buffer out(bench.device, N * 4, "probe output");
+  Buffer out(bench.device, N * 4, BufferPurpose::kProbe);
   const KernelArg args[] = {out};
   bench.cache.getWithOptions("probes/probe.cl", "").kernel(kernel).launch(args, 1, 1);
   std::array<std::uint32_t, N> values{};
@@ -41,7 +41,7 @@ Finding structLayouts(int) {
 Finding fusedMultiplyAdds(int lanes) {
   KernelBench& bench = KernelBench::shared();
   std::vector<float> values(64, 0.25f);
-  Buffer buffer(bench.device, values.size() * 4, "probe data");
+  Buffer buffer(bench.device, values.size() * 4, BufferPurpose::kProbe);
   buffer.write(values.data(), values.size() * 4);
   const KernelArg args[] = {buffer, std::uint32_t{200}, 0.5f, 0.5f};
   bench.cache.getWithOptions("probes/probe.cl", "-D WIDTH=" + std::to_string(lanes))

@@ -33,7 +33,8 @@ std::vector<ProbedLobe> probe(const std::vector<LobeCase>& cases, float alpha, i
                             c.light.y,   c.light.z,   c.view.x,    c.view.y,    c.view.z};
     for (std::size_t k = 0; k < 10; ++k) in[k * n + i] = values[k];
   }
-  Buffer input(device, in.size() * 4, "lobes"), output(device, out.size() * 4, "shaded lobes");
+  Buffer input(device, in.size() * 4, BufferPurpose::kProbe, "lobes"),
+      output(device, out.size() * 4, BufferPurpose::kProbe, "shaded lobes");
   input.write(in.data(), in.size() * 4);
   const std::vector<KernelArg> args = {input, output, static_cast<std::uint32_t>(n), alpha};
   probeKernel(
@@ -148,7 +149,8 @@ Mixture probeMixture(const std::vector<glm::vec4>& moments, float alpha, int wid
       for (std::size_t lane = 0; lane < lanes; ++lane)
         in[(4 * k + c) * lanes + lane] = moments[k][static_cast<int>(c)];
   Device& device = KernelBench::shared().device;
-  Buffer input(device, in.size() * 4, "moments"), output(device, out.size() * 4, "a mixture");
+  Buffer input(device, in.size() * 4, BufferPurpose::kProbe, "moments"),
+      output(device, out.size() * 4, BufferPurpose::kProbe, "a mixture");
   input.write(in.data(), in.size() * 4);
   const std::vector<KernelArg> args = {input, output, static_cast<std::uint32_t>(lanes), alpha};
   probeKernel(

@@ -6,7 +6,7 @@
 
 #include "host/fit/lobe_model.h"
 #include "host/fit/multiscatter_data.h"
-#include "host/frame/effect/multiscatter.h"
+#include "host/frame/effect/scattering_params.h"
 #include "host/harness/pixel_harness.h"
 #include "host/harness/scatter_harness.h"
 #include "host/harness/tolerances.h"

@@ -18,10 +18,7 @@
 namespace glintmark {
 namespace {
 
-constexpr EffectSet kEverything = {
-    Effect::kGlints,       Effect::kGrooves,      Effect::kColour,
-    Effect::kNormals,      Effect::kLtc,          Effect::kMultiscale,
-    Effect::kMultiscatter, Effect::kCompensation, Effect::kEnvironment};
+const EffectSet kEverything = EffectSet::all();
 
 // Strips of floor, one material each, so that lanes of one work-item belong to several; every
 // effect of the project.
@@ -113,16 +110,16 @@ TEST_P(SetOfEffects, SpecialisedProgramsGiveTheBitsOfTheProgramWithEverything) {
 TEST_P(SetOfEffects, AllocatesWhatItsEffectsReadAndNoMore) {
   const EffectSet set = GetParam();
   const Shaded own = shadeWith(mixedScene(), set, Programs::kPerMaterial);
-  const auto made = [&](const char* purpose) { return own.use.by_purpose.contains(purpose); };
-  EXPECT_EQ(made("a filtered normal map"), set.has(Effect::kNormals));
-  EXPECT_EQ(made("a normal map's layout"), set.has(Effect::kNormals));
-  EXPECT_EQ(made("a table of linearly transformed cosines"), set.has(Effect::kLtc));
-  EXPECT_EQ(made("the area lights"), set.has(Effect::kLtc));
-  EXPECT_EQ(made("a material's scattering"),
+  const auto made = [&](BufferPurpose purpose) { return own.use.by_purpose.contains(purpose); };
+  EXPECT_EQ(made(BufferPurpose::kNormalMaps), set.has(Effect::kNormals));
+  EXPECT_EQ(made(BufferPurpose::kNormalMapLayouts), set.has(Effect::kNormals));
+  EXPECT_EQ(made(BufferPurpose::kCosineTable), set.has(Effect::kLtc));
+  EXPECT_EQ(made(BufferPurpose::kAreaLights), set.has(Effect::kLtc));
+  EXPECT_EQ(made(BufferPurpose::kScattering),
             set.has(Effect::kMultiscatter) || set.has(Effect::kCompensation));
-  EXPECT_FALSE(made("the lights' pictures"));
-  EXPECT_FALSE(made("the cell counts"));
-  EXPECT_FALSE(made("the materials of the pixels"));
+  EXPECT_FALSE(made(BufferPurpose::kLightPictures));
+  EXPECT_FALSE(made(BufferPurpose::kCellCounts));
+  EXPECT_FALSE(made(BufferPurpose::kOwners));
 
   PlaneMask planes = {Plane::kPixel, Plane::kFrame0, Plane::kFrame1};
   if (set.has(Effect::kGlints) || set.has(Effect::kGrooves))
@@ -131,8 +128,8 @@ TEST_P(SetOfEffects, AllocatesWhatItsEffectsReadAndNoMore) {
     planes = planes | PlaneMask{Plane::kUFrac, Plane::kVFrac, Plane::kDudx,
                                 Plane::kDvdx,  Plane::kDudy,  Plane::kDvdy};
   if (set.has(Effect::kLtc)) planes = planes | PlaneMask{Plane::kDepth};
-  const std::size_t plane_bytes = own.use.by_purpose.at("the rasterized planes").peak;
-  const std::size_t radiance_bytes = own.use.by_purpose.at("the radiance").peak;
+  const std::size_t plane_bytes = own.use.by_purpose.at(BufferPurpose::kPlanes).peak;
+  const std::size_t radiance_bytes = own.use.by_purpose.at(BufferPurpose::kRadiance).peak;
   EXPECT_EQ(plane_bytes / planes.size(), radiance_bytes / 3);
   EXPECT_EQ(plane_bytes % planes.size(), 0u);
 }
@@ -179,16 +176,7 @@ TEST(Specialisation, ProgramsNameNoFunctionOfAnAbsentEffect) {
       config.planes = planes;
       const std::string source = preprocessed(config);
       EXPECT_NE(source.find("shadePixels"), std::string::npos);
-      EffectSet present;
-      if (config.glint) present = present | EffectSet{Effect::kGlints};
-      if (config.groove) present = present | EffectSet{Effect::kGrooves};
-      if (config.glint_colour) present = present | EffectSet{Effect::kColour};
-      if (config.normal_map) present = present | EffectSet{Effect::kNormals};
-      if (config.ltc) present = present | EffectSet{Effect::kLtc};
-      if (config.ltc && config.normal_map) present = present | EffectSet{Effect::kMultiscale};
-      if (config.multiscatter != Multiscatter::kOff)
-        present = present | EffectSet{Effect::kMultiscatter};
-      if (config.metal_compensation) present = present | EffectSet{Effect::kCompensation};
+      const EffectSet present = effectsOf(config);
       for (const auto& [effect, names] : effectFunctions()) {
         if (present.has(effect)) continue;
         for (const std::string& name : names)

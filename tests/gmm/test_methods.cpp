@@ -135,17 +135,16 @@ TEST(Mixtures, AreNearerToTheTruthThanOtherFilters) {
 
 TEST(Truth, BatchesAddUpToTheSameSamples) {
   MappedFloor floor(bumps(32));
-  floor.options.truth = true;
   const auto render = [&](std::initializer_list<std::uint32_t> counts) {
-    FrameRenderer renderer(KernelBench::shared().device, floor.scene, floor.view, floor.options, 1,
+    TruthRenderer renderer(KernelBench::shared().device, floor.scene, floor.view, floor.options, 1,
                            floor.textures);
     renderer.prepare();
     std::uint32_t done = 0;
     for (const std::uint32_t count : counts) {
-      renderer.addTruthSamples(done, count);
+      renderer.addSamples(done, count);
       done += count;
     }
-    return renderer.readRadiance();
+    return renderer.readSum();
   };
   EXPECT_LT(relativeDifference(render({5, 11}), render({16})), 1e-6);
 }

@@ -67,7 +67,7 @@ class OclTest : public testing::Test {
 
   /// Element 0 after `program`'s kernel "count" ran over 64 zeros.
   static std::uint32_t runCount(Device& device, const Program& program) {
-    Buffer values(device, 64 * 4, "values");
+    Buffer values(device, 64 * 4, BufferPurpose::kProbe);
     values.fillZero();
     const KernelArg args[] = {values, std::uint32_t{64}};
     program.kernel("count").launch(args, 64, 16);

@@ -23,7 +23,7 @@ std::vector<std::uint32_t> ascending() {
 }
 
 TEST_F(BufferTest, FreshMemoryGivesBackWhatWasWritten) {
-  Buffer buffer(device_, kWords * 4, "words");
+  Buffer buffer(device_, kWords * 4, BufferPurpose::kProbe, "words");
   EXPECT_EQ(buffer.bytes(), kWords * 4);
   const std::vector<std::uint32_t> words = ascending();
   EXPECT_GE(buffer.write(words.data(), kWords * 4), 0);
@@ -33,7 +33,7 @@ TEST_F(BufferTest, FreshMemoryGivesBackWhatWasWritten) {
 }
 
 TEST_F(BufferTest, OffsetsAddressAPart) {
-  Buffer buffer(device_, kWords * 4, "words");
+  Buffer buffer(device_, kWords * 4, BufferPurpose::kProbe, "words");
   buffer.fillZero();
   const std::uint32_t value = 42;
   buffer.write(&value, 4, 400);
@@ -43,7 +43,7 @@ TEST_F(BufferTest, OffsetsAddressAPart) {
 }
 
 TEST_F(BufferTest, FillZeroClearsAll) {
-  Buffer buffer(device_, kWords * 4, "words");
+  Buffer buffer(device_, kWords * 4, BufferPurpose::kProbe, "words");
   buffer.write(ascending().data(), kWords * 4);
   buffer.fillZero();
   std::vector<std::uint32_t> back(kWords, 1);
@@ -54,7 +54,8 @@ TEST_F(BufferTest, FillZeroClearsAll) {
 TEST_F(BufferTest, WrappedMemoryReachesTheKernelAndBack) {
   const std::unique_ptr<std::uint32_t, decltype(&std::free)> memory(
       static_cast<std::uint32_t*>(std::aligned_alloc(4096, 5 * 4096)), std::free);
-  Buffer buffer = Buffer::wrapHost(device_, memory.get(), kWords * 4, "planes");
+  Buffer buffer =
+      Buffer::wrapHost(device_, memory.get(), kWords * 4, BufferPurpose::kProbe, "planes");
   ProgramCache cache(device_);
   Kernel count = cache.getWithOptions("tiny.cl", "").kernel("count");
   const KernelArg args[] = {buffer, static_cast<std::uint32_t>(kWords)};
@@ -75,7 +76,7 @@ TEST_F(BufferTest, WrappedMemoryReachesTheKernelAndBack) {
 }
 
 TEST_F(BufferTest, ZeroBytesStillMakesABuffer) {
-  Buffer buffer(device_, 0, "nothing");
+  Buffer buffer(device_, 0, BufferPurpose::kProbe, "nothing");
   EXPECT_EQ(buffer.bytes(), 4u);
   EXPECT_FALSE(buffer.empty());
   EXPECT_TRUE(Buffer().empty());
@@ -84,15 +85,15 @@ TEST_F(BufferTest, ZeroBytesStillMakesABuffer) {
 
 TEST_F(BufferTest, TooLargeNamesTheThingAndTheLimit) {
   const DeviceInfo& info = device_.info();
-  const std::string message =
-      errorOf([&] { Buffer(device_, info.max_alloc_bytes + 1, "radiance"); });
+  const std::string message = errorOf(
+      [&] { Buffer(device_, info.max_alloc_bytes + 1, BufferPurpose::kProbe, "radiance"); });
   EXPECT_TRUE(message.starts_with("radiance needs ")) << message;
   EXPECT_NE(message.find(" MiB, but '" + info.name + "' allows at most "), std::string::npos)
       << message;
 }
 
 TEST_F(BufferTest, RangesOutsideAreRefused) {
-  Buffer buffer(device_, 16, "words");
+  Buffer buffer(device_, 16, BufferPurpose::kProbe, "words");
   char bytes[32] = {};
   EXPECT_EQ(errorOf([&] { buffer.write(bytes, 17); }),
             "cannot write 17 bytes at offset 0 of words, which has 16 bytes");
@@ -106,32 +107,37 @@ TEST_F(BufferTest, RangesOutsideAreRefused) {
 
 TEST_F(BufferTest, WrappingNeedsAlignedMemory) {
   alignas(4096) static char page[8192];
-  EXPECT_EQ(errorOf([&] { Buffer::wrapHost(device_, page + 64, 64, "planes"); }),
-            "planes cannot be wrapped because it is not aligned to 4096 bytes");
-  EXPECT_EQ(errorOf([&] { Buffer::wrapHost(device_, nullptr, 64, "planes"); }),
-            "planes cannot be wrapped because it is not aligned to 4096 bytes");
-  EXPECT_EQ(errorOf([&] { Buffer::wrapHost(device_, page, 0, "planes"); }),
+  EXPECT_EQ(
+      errorOf([&] { Buffer::wrapHost(device_, page + 64, 64, BufferPurpose::kProbe, "planes"); }),
+      "planes cannot be wrapped because it is not aligned to 4096 bytes");
+  EXPECT_EQ(
+      errorOf([&] { Buffer::wrapHost(device_, nullptr, 64, BufferPurpose::kProbe, "planes"); }),
+      "planes cannot be wrapped because it is not aligned to 4096 bytes");
+  EXPECT_EQ(errorOf([&] { Buffer::wrapHost(device_, page, 0, BufferPurpose::kProbe, "planes"); }),
             "planes has no bytes to wrap; at least one is needed");
 }
 
 TEST_F(BufferTest, DeviceKnowsWhatIsHeldAndWhatWas) {
   EXPECT_EQ(device_.bufferUse().total.held, 0u);
-  Buffer words(device_, 4000, "words");
+  Buffer words(device_, 4000, BufferPurpose::kProbe, "words");
   {
-    const Buffer more(device_, 400, "words"), other(device_, 40, "other");
+    const Buffer more(device_, 400, BufferPurpose::kProbe, "words"),
+        other(device_, 40, BufferPurpose::kLights);
     const Buffer same = more;  // a second handle is no second buffer
-    EXPECT_EQ(device_.bufferUse().by_purpose.at("words").held, 4400u);
+    EXPECT_EQ(device_.bufferUse().by_purpose.at(BufferPurpose::kProbe).held, 4400u);
     EXPECT_EQ(device_.bufferUse().total.held, 4440u);
   }
   const BufferUse use = device_.bufferUse();
-  EXPECT_EQ(use.by_purpose.at("words").held, 4000u);
-  EXPECT_EQ(use.by_purpose.at("words").peak, 4400u);
-  EXPECT_EQ(use.by_purpose.at("other").held, 0u);
+  EXPECT_EQ(use.by_purpose.at(BufferPurpose::kProbe).held, 4000u);
+  EXPECT_EQ(use.by_purpose.at(BufferPurpose::kProbe).peak, 4400u);
+  EXPECT_EQ(use.by_purpose.at(BufferPurpose::kLights).held, 0u);
   EXPECT_EQ(use.total.peak, 4440u);
   device_.resetBufferPeaks();
-  EXPECT_FALSE(device_.bufferUse().by_purpose.contains("other"));
+  EXPECT_FALSE(device_.bufferUse().by_purpose.contains(BufferPurpose::kLights));
   EXPECT_EQ(device_.bufferUse().total.peak, 4000u);
-  EXPECT_THROW(Buffer(device_, device_.info().max_alloc_bytes + 1, "too much"), Error);
+  EXPECT_THROW(
+      Buffer(device_, device_.info().max_alloc_bytes + 1, BufferPurpose::kProbe, "too much"),
+      Error);
   EXPECT_EQ(device_.bufferUse().total.held, 4000u);
 }
 

@@ -70,7 +70,7 @@ TEST(Device, IsUsableAfterAMove) {
   const std::string name = device.info().name;
   Device moved = std::move(device);
   EXPECT_EQ(moved.info().name, name);
-  EXPECT_NO_THROW(Buffer(moved, 16, "words"));
+  EXPECT_NO_THROW(Buffer(moved, 16, BufferPurpose::kProbe));
 }
 
 // The loader reads OCL_ICD_VENDORS once per process, hence a process of its own.

@@ -13,7 +13,7 @@ class KernelTest : public OclTest {
   Device device_;
   ProgramCache cache_{device_};
   Program program_ = cache_.getWithOptions("tiny.cl", "");
-  Buffer values_{device_, kLargeGrid * 4, "values"};
+  Buffer values_{device_, kLargeGrid * 4, BufferPurpose::kProbe};
 };
 
 TEST_F(KernelTest, RangeIsRoundedUpToTheLocalSize) {

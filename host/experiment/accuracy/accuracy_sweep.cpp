@@ -70,9 +70,11 @@ ShadingOptions AccuracyStage::options() const {
   return {.width_px = size.width_px, .height_px = size.height_px, .lanes = run_.info().width};
 }
 
-std::unique_ptr<FrameRenderer> AccuracyStage::unprepared(const ShadingOptions& options) const {
-  return std::make_unique<FrameRenderer>(run_.device(), scene_, view_, options,
-                                         run_.session().common.threads, textures_);
+std::unique_ptr<TruthRenderer> AccuracyStage::sampler(const ShadingOptions& options) const {
+  auto sampled = std::make_unique<TruthRenderer>(run_.device(), scene_, view_, options,
+                                                 run_.session().common.threads, textures_);
+  sampled->prepare();
+  return sampled;
 }
 
 std::unique_ptr<FrameRenderer> AccuracyStage::renderer(const ShadingOptions& options,
@@ -129,15 +131,12 @@ AccuracyTimes AccuracySweep::measureSampledTimes(const AccuracySetting& setting)
   std::vector<AccuracyTimes> times(stages().size());
   const auto samples = static_cast<std::uint32_t>(setting.samples);
   for (std::size_t i = 0; i < times.size(); ++i) {
-    ShadingOptions options = stages_[i].options();
-    options.truth = true;
-    const auto sampled = stages_[i].unprepared(options);
-    sampled->prepare();
-    sampled->addTruthSamples(0, 1);  // compiles
+    const auto sampled = stages_[i].sampler(stages_[i].options());
+    sampled->addSamples(0, 1);  // compiles
     double spent_ms = 0;
     for (int rep = 0; rep < run_.options().reps && (rep == 0 || spent_ms < kLeastTime_ms); ++rep) {
       const double standard_ms = shadeMs(*standards_[i]);
-      times[i].ms.push_back(sampled->addTruthSamples(0, samples).shading_event_ns * kMsPerNs);
+      times[i].ms.push_back(sampled->addSamples(0, samples).shading_event_ns * kMsPerNs);
       times[i].ratio.push_back(times[i].ms.back() / standard_ms);
       spent_ms += times[i].ms.back();
     }

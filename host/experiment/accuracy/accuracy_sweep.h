@@ -9,6 +9,7 @@
 
 #include "host/experiment/accuracy/accuracy_effect.h"
 #include "host/frame/frame_renderer.h"
+#include "host/frame/ground_truth.h"
 
 namespace glintmark {
 
@@ -43,8 +44,8 @@ class AccuracyStage {
   /// must live as long as the renderer.
   std::unique_ptr<FrameRenderer> renderer(const ShadingOptions& options, const View* view = nullptr,
                                           const Scene* scene = nullptr) const;
-  /// The same without a frame: for the ground truth.
-  std::unique_ptr<FrameRenderer> unprepared(const ShadingOptions& options) const;
+  /// Prepared to sample the ground truth at the size of `options`.
+  std::unique_ptr<TruthRenderer> sampler(const ShadingOptions& options) const;
   const std::shared_ptr<NormalTextures>& textures() const { return textures_; }
 
  private:

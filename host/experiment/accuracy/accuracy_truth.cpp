@@ -77,15 +77,11 @@ Image SampledSweep::image(const AccuracyStage& stage, const AccuracySetting& set
     if (setting.apply) setting.apply(options);
     return stage.renderer(options)->readRadiance();
   }
-  options.truth = true;
-  const auto renderer = stage.unprepared(options);
-  renderer->prepare();
-  renderer->addTruthSamples(static_cast<std::uint32_t>(settings_.spp),
-                            static_cast<std::uint32_t>(setting.samples));
-  Image sum = renderer->readRadiance();
-  for (std::size_t i = 0; i < sum.pixels.size(); ++i)
-    if (i % 4 != 3) sum.pixels[i] /= static_cast<float>(setting.samples);
-  return sum;
+  const auto sampled = stage.sampler(options);
+  const auto samples = static_cast<std::uint32_t>(setting.samples);
+  // Samples that the truth has not used.
+  sampled->addSamples(static_cast<std::uint32_t>(settings_.spp), samples);
+  return sampled->readMean(samples);
 }
 
 AccuracyFigures SampledSweep::figures(std::size_t index, const AccuracyStage& stage,

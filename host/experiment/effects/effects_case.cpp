@@ -172,7 +172,7 @@ struct EffectsMeasurer::Compared {
   BufferUse before, after;  // of the set's own frame
   std::size_t uber_peak_bytes = 0;
 
-  double heldBytes(const std::string& purpose) const {
+  double heldBytes(BufferPurpose purpose) const {
     const auto held = [&](const BufferUse& use) {
       const auto found = use.by_purpose.find(purpose);
       return found == use.by_purpose.end() ? 0.0 : static_cast<double>(found->second.held);
@@ -282,10 +282,10 @@ void EffectsMeasurer::CaseMaker::addTimes(const Frames& frames) {
 }
 
 void EffectsMeasurer::CaseMaker::addBytes() {
-  const double planes = compared_.heldBytes("the rasterized planes");
+  const double planes = compared_.heldBytes(BufferPurpose::kPlanes);
   add("planes_bytes", "bytes", {planes}, "rasterized planes");
   add("tables_bytes", "bytes",
-      {compared_.peakBytes() - planes - compared_.heldBytes("the radiance")},
+      {compared_.peakBytes() - planes - compared_.heldBytes(BufferPurpose::kRadiance)},
       "all other buffers but the radiance: tables, textures, lights, parameters");
   add("peak_bytes", "bytes", {compared_.peakBytes()},
       "device buffers really allocated, most at once");

@@ -7,6 +7,7 @@
 
 #include "host/experiment/bench_run.h"
 #include "host/frame/effect_set.h"
+#include "host/frame/frame_renderer.h"
 
 namespace glintmark {
 

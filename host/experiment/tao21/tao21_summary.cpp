@@ -76,19 +76,16 @@ EqualError monteCarloAtEqualError(BenchRun& run, const Scene& scene,
   ltc.shade();
   const double ltc_error = relMse(coveredPixels(ltc.readRadiance()), truth_row);
 
-  small.truth = true;
-  FrameRenderer monte_carlo(run.device(), scene, view, small, settings.threads);
+  TruthRenderer monte_carlo(run.device(), scene, view, small, settings.threads);
   EqualError result;
   double last_error = 0;
   for (int spp = 1; spp <= kMostMonteCarloSpp; spp *= 2) {
     stopIfInterrupted();
     monte_carlo.prepare();
     // Samples that the truth has not used.
-    const FrameTimes times = monte_carlo.addTruthSamples(
-        static_cast<std::uint32_t>(settings.truth_spp), static_cast<std::uint32_t>(spp));
-    Image image = monte_carlo.readRadiance();
-    for (std::size_t i = 0; i < image.pixels.size(); ++i)
-      if (i % 4 != 3) image.pixels[i] /= static_cast<float>(spp);
+    const FrameTimes times = monte_carlo.addSamples(static_cast<std::uint32_t>(settings.truth_spp),
+                                                    static_cast<std::uint32_t>(spp));
+    const Image image = monte_carlo.readMean(static_cast<std::uint32_t>(spp));
     const double error = relMse(coveredPixels(image), truth_row);
     const double ltc_ms = shadeMs(ltc);
     result.spp = spp;

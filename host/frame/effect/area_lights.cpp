@@ -7,6 +7,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "host/core/error.h"
+#include "host/ocl/upload.h"
 
 namespace glintmark {
 namespace {
@@ -76,13 +77,6 @@ Image turnOver(const Image& texture) {
   return image;
 }
 
-template <typename T>
-Buffer upload(Device& device, const std::vector<T>& items, const std::string& what) {
-  Buffer buffer(device, items.size() * sizeof(T), what);
-  buffer.write(items.data(), items.size() * sizeof(T));
-  return buffer;
-}
-
 // Throws Error for a value that half precision does not hold.
 std::vector<std::uint16_t> toHalves(const std::vector<float>& values) {
   constexpr float kGreatestHalf = 65504;
@@ -144,7 +138,7 @@ AreaLightBuffers::AreaLightBuffers(Device& device, const Scene& scene, const glm
       light_count_(static_cast<uint>(scene.area_lights.size())),
       own_table_(std::move(own_table)) {
   if (scene.area_lights.empty()) return;
-  lights_ = upload(device, prepareAreaLights(scene.area_lights, eye), "the area lights");
+  lights_ = upload(device, prepareAreaLights(scene.area_lights, eye), BufferPurpose::kAreaLights);
   std::vector<MipTexture> layouts;
   std::vector<float4> texels;
   for (const AreaLight& light : scene.area_lights) {
@@ -152,8 +146,8 @@ AreaLightBuffers::AreaLightBuffers(Device& device, const Scene& scene, const glm
     layouts.push_back(appendTexture(prefilterLightTexture(light.texture), texels));
   }
   if (layouts.empty()) return;
-  layouts_ = upload(device, layouts, "the layouts of the lights' pictures");
-  texels_ = upload(device, texels, "the lights' pictures");
+  layouts_ = upload(device, layouts, BufferPurpose::kLightPictureLayouts);
+  texels_ = upload(device, texels, BufferPurpose::kLightPictures);
 }
 
 const AreaLightBuffers::Table& AreaLightBuffers::table(const KernelConfig& config) {
@@ -163,26 +157,27 @@ const AreaLightBuffers::Table& AreaLightBuffers::table(const KernelConfig& confi
   const reference::Ndf ndf = config.ggx ? reference::Ndf::kGgx : reference::Ndf::kBeckmann;
   const bool own = own_table_ && own_table_->ndf == ndf;
   const LtcTable loaded = own ? *own_table_ : shippedLtcTable(ndf);
-  const std::string what = "a table of linearly transformed cosines";
-  Table made{config.ltc_half ? upload(device_, toHalves(loaded.values), what)
-                             : upload(device_, loaded.values, what),
+  constexpr BufferPurpose kPurpose = BufferPurpose::kCosineTable;
+  Table made{config.ltc_half ? upload(device_, toHalves(loaded.values), kPurpose)
+                             : upload(device_, loaded.values, kPurpose),
              static_cast<uint>(loaded.size)};
   return tables_.emplace(key, std::move(made)).first->second;
 }
 
-std::vector<KernelArg> AreaLightBuffers::arguments(const KernelConfig& config) {
-  if (!config.ltc) return {};
+void AreaLightBuffers::addArguments(const KernelConfig& config, ShadeArguments& arguments) {
+  if (!config.ltc) return;
   if (light_count_ == 0) {
     // A program for all materials holds the effect; nobody reads what is handed to it.
-    const Buffer nothing(device_, sizeof(float4), "no area lights");
-    return {nothing, nothing};
+    const Buffer nothing = upload(device_, std::vector<float4>{}, BufferPurpose::kAreaLights);
+    arguments.add("area_lights", nothing);
+    arguments.add("ltc_table", nothing);
+    return;
   }
-  std::vector<KernelArg> args = {lights_, table(config).values};
-  if (config.light_texture) {
-    args.emplace_back(layouts_);
-    args.emplace_back(texels_);
-  }
-  return args;
+  arguments.add("area_lights", lights_);
+  arguments.add("ltc_table", table(config).values);
+  if (!config.light_texture) return;
+  arguments.add("pictures", layouts_);
+  arguments.add("picture_texels", texels_);
 }
 
 void AreaLightBuffers::describe(const KernelConfig& config, FrameParams& params) {

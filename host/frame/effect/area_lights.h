@@ -11,6 +11,7 @@
 #include "host/core/shared_types.h"
 #include "host/filter/mip_chain.h"
 #include "host/fit/ltc_table.h"
+#include "host/frame/shade_arguments.h"
 #include "host/ocl/compute.h"
 #include "host/ocl/kernel_config.h"
 #include "host/scene/scene.h"
@@ -35,12 +36,12 @@ class AreaLightBuffers {
   AreaLightBuffers(Device& device, const Scene& scene, const glm::dvec3& eye,
                    std::shared_ptr<const LtcTable> own_table = nullptr);
 
-  /// Arguments of `config`'s kernel: the lights, the NDF's table and, with LIGHT_TEXTURE, the
-  /// layouts and texels of the pictures; none where `config` has no area lights, empty ones where
-  /// the scene has none. Loads the shipped table of the NDF when it is first asked for; throws
-  /// Error if it is missing or damaged, or if a value does not fit into half precision where
+  /// Adds the arguments of `config`'s kernel: the lights, the NDF's table and, with LIGHT_TEXTURE,
+  /// the layouts and texels of the pictures; none where `config` has no area lights, empty ones
+  /// where the scene has none. Loads the shipped table of the NDF when it is first asked for;
+  /// throws Error if it is missing or damaged, or if a value does not fit into half precision where
   /// LTC_HALF asks for it.
-  std::vector<KernelArg> arguments(const KernelConfig& config);
+  void addArguments(const KernelConfig& config, ShadeArguments& arguments);
   /// Sets the counts that the kernels read.
   void describe(const KernelConfig& config, FrameParams& params);
   std::size_t bytes() const;

@@ -24,9 +24,9 @@ template <typename T>
 NormalTexture upload(Device& device, const MipTexture& layout, const std::vector<T>& texels,
                      std::size_t texel_bytes) {
   NormalTexture texture;
-  texture.layout = Buffer(device, sizeof(MipTexture), "a normal map's layout");
+  texture.layout = Buffer(device, sizeof(MipTexture), BufferPurpose::kNormalMapLayouts);
   texture.layout.write(&layout, sizeof(MipTexture));
-  texture.texels = Buffer(device, texels.size() * sizeof(T), "a filtered normal map");
+  texture.texels = Buffer(device, texels.size() * sizeof(T), BufferPurpose::kNormalMaps);
   texture.texels.write(texels.data(), texels.size() * sizeof(T));
   texture.texel_bytes = texel_bytes;
   return texture;

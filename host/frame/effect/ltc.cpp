@@ -1,0 +1,59 @@
+// Area lights, shaded by linearly transformed cosines. [HDHN16]
+#include <algorithm>
+
+#include "host/frame/effect/area_lights.h"
+#include "host/frame/effect_module.h"
+
+namespace glintmark {
+namespace {
+
+void choose(const ProgramCall& call, KernelConfig& config) {
+  const std::vector<AreaLight>& lights = call.scene.area_lights;
+  config.ltc = !lights.empty();
+  if (!config.ltc) return;
+  config.ggx = call.material.ggx;
+  std::size_t most_vertices = 3;
+  for (const AreaLight& light : lights) {
+    most_vertices = std::max(most_vertices, light.vertices.size());
+    config.light_texture = config.light_texture || !light.texture.pixels.empty();
+  }
+  config.light_vertices = static_cast<int>(most_vertices);
+  if (call.truth) return;
+  setKnobs(call.options, &KernelConfig::ltc, config);
+  config.ltc_method = LtcMethod::kOriginal;  // the effect `multiscale` chooses
+}
+
+void chooseForAll(std::span<const KernelConfig> own, const ShadingOptions&, KernelConfig& all) {
+  all.ltc = true;
+  if (!own.empty()) all.ggx = own.front().ggx;
+}
+
+AreaLightBuffers& buffersOf(FrameResources& frame) {
+  return frame.kept<AreaLightBuffers>([&] {
+    return std::make_shared<AreaLightBuffers>(frame.device, frame.scene, frame.eye,
+                                              frame.options.ltc_table);
+  });
+}
+
+}  // namespace
+
+const EffectModule& ltcEffect() {
+  static const EffectModule module = {
+      .name = "ltc",
+      .called_for = [](const Scene& scene) { return !scene.area_lights.empty(); },
+      .strip = [](Scene& scene) { scene.area_lights.clear(); },
+      .choose = choose,
+      .is_in = [](const KernelConfig& config) { return config.ltc; },
+      .bit = EFFECT_LTC,
+      .planes = {Plane::kDepth},
+      .agree = [](const KernelConfig& a, const KernelConfig& b) { return a.ggx == b.ggx; },
+      .choose_for_all = chooseForAll,
+      .add_arguments =
+          [](FrameResources& frame, const Material&, const KernelConfig& config,
+             ShadeArguments& arguments) { buffersOf(frame).addArguments(config, arguments); },
+      .describe = [](FrameResources& frame, const KernelConfig& config,
+                     FrameParams& params) { buffersOf(frame).describe(config, params); }};
+  return module;
+}
+
+}  // namespace glintmark

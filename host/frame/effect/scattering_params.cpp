@@ -1,0 +1,146 @@
+#include "host/frame/effect/scattering_params.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <numbers>
+#include <vector>
+
+#include "host/frame/effects.h"
+#include "host/ocl/upload.h"
+
+namespace glintmark {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kLeastRoom = 1e-6;  // of a surface so smooth that nothing is scattered twice
+
+// The polynomial through a function on [0, 1] at Chebyshev points, by Newton's divided differences.
+void interpolate(const std::function<double(double)>& f, float (&out)[MS_DEGREES]) {
+  std::array<double, MS_DEGREES> x{}, difference{}, power{};
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    x[i] = 0.5 - 0.5 * std::cos(kPi * (static_cast<double>(i) + 0.5) / MS_DEGREES);
+    difference[i] = f(x[i]);
+  }
+  for (std::size_t k = 1; k < x.size(); ++k)
+    for (std::size_t i = x.size() - 1; i >= k; --i)
+      difference[i] = (difference[i] - difference[i - 1]) / (x[i] - x[i - k]);
+  for (std::size_t k = x.size(); k-- > 0;) {
+    // power = power * (t - x[k]) + difference[k]
+    for (std::size_t i = power.size() - 1; i > 0; --i) power[i] = power[i - 1] - x[k] * power[i];
+    power[0] = difference[k] - x[k] * power[0];
+  }
+  std::ranges::transform(power, out, [](double c) { return static_cast<float>(c); });
+}
+
+float4 mapColour(const float4& colour, const std::function<double(double)>& f) {
+  return {static_cast<float>(f(colour.x)), static_cast<float>(f(colour.y)),
+          static_cast<float>(f(colour.z)), 0};
+}
+
+// Cubic of the cosine of incidence at one roughness.
+float4 atRoughness(const std::array<std::array<double, 4>, 4>& c, double alpha) {
+  const auto value = [&](std::size_t i) {
+    return static_cast<float>(c[i][0] + alpha * (c[i][1] + alpha * (c[i][2] + alpha * c[i][3])));
+  };
+  return {value(0), value(1), value(2), value(3)};
+}
+
+void prepareLobes(const Material& material, LobePolynomials p, MultiscatterMaterial& out) {
+  const double alpha = material.diffuse_roughness;
+  p.masking = material.diffuse_masking;
+  const double eta = lobeAt(p, 1, alpha).exponent;
+  const double third = p.thirdOverSecond(alpha);
+  out.alpha = static_cast<float>(alpha);
+  out.masking = static_cast<float>(p.masking);
+  out.scale = atRoughness(p.scale, alpha);
+  out.flattening = atRoughness(p.flattening, alpha);
+  out.exponent = static_cast<float>(eta - 1);
+  out.single = mapColour(material.glint.albedo, [](double rho) { return rho / kPi; });
+  out.multiple = mapColour(material.glint.albedo, [&](double rho) {
+    return rho * rho * (1 + third * rho) * (2 + eta) / (2 * kPi * kPi);
+  });
+  interpolate([&](double mu) { return lobeModelShare(p, alpha, 1, mu, 1); }, out.share);
+  const LobeModel model(p, alpha);
+  const double room = std::max(model.scattered(), kLeastRoom);
+  interpolate([&](double mu) { return model.means(mu).plain / room; }, out.crowd);
+  interpolate([&](double mu) { return model.means(mu).masked / room; }, out.masked_crowd);
+}
+
+void prepareEon(const GlintMaterial& material, double r, MultiscatterMaterial& out) {
+  const double a_f = 1 / (1 + (0.5 - 2 / (3 * kPi)) * r);
+  const double mean = a_f * (1 + (2.0 / 3.0 - 28 / (15 * kPi)) * r);
+  out.exponent = static_cast<float>(r);
+  out.single = mapColour(material.albedo, [&](double rho) { return rho * a_f / kPi; });
+  out.multiple = mapColour(material.albedo, [&](double rho) {
+    return rho * rho * mean / (1 - rho * (1 - mean)) / kPi / std::max(1 - mean, 1e-7);
+  });
+  interpolate([&](double mu) { return 1 - eonAlbedo(mu, r); }, out.share);
+}
+
+// Metals: what one bounce leaves out, over what it reflects. [Turquin19] Eq. 16
+void prepareCompensation(const Material& material, const MirrorAlbedo& mirror,
+                         MultiscatterMaterial& out) {
+  const double alpha =
+      std::sqrt(static_cast<double>(material.glint.alpha_g.x) * material.glint.alpha_g.y);
+  out.warp = static_cast<float>(MS_WARP * alpha);
+  interpolate(
+      [&](double t) {
+        // Never more than the lobe lacks, whatever the noise of a simulation.
+        const double lobe = mirror.at(mirror.lobe, alpha, t);
+        const double energy = material.compensation == Compensation::kSimulated
+                                  ? std::max(mirror.at(mirror.simulated, alpha, t), lobe)
+                                  : lobe;
+        return 1 / energy - 1;
+      },
+      out.compensation);
+}
+
+}  // namespace
+
+MultiscatterMaterial prepareMultiscatter(const Material& material, const KernelConfig& config,
+                                         const MultiscatterData* data) {
+  const auto fits = [data]() -> const MultiscatterData& {
+    return data ? *data : multiscatterData();
+  };
+  const double alpha = material.diffuse_roughness;
+  MultiscatterMaterial out{};
+  if (config.multiscatter == Multiscatter::kPublished) prepareLobes(material, kPublishedCode, out);
+  if (config.multiscatter == Multiscatter::kRefit) prepareLobes(material, fits().refit, out);
+  if (config.multiscatter == Multiscatter::kEon)
+    prepareEon(material.glint, fits().eon.at(alpha), out);
+  if (config.metal_compensation) prepareCompensation(material, fits().mirror, out);
+  return out;
+}
+
+namespace {
+
+struct AllScattering {
+  Buffer buffer;
+};
+
+std::shared_ptr<AllScattering> uploadAll(FrameResources& frame, const KernelConfig& config) {
+  std::vector<MultiscatterMaterial> scatter;
+  for (const Material& material : frame.scene.materials)
+    scatter.push_back(prepareMultiscatter(
+        material, configFor(material, frame.scene, frame.options, config.width)));
+  return std::make_shared<AllScattering>(
+      AllScattering{upload(frame.device, scatter, BufferPurpose::kScattering)});
+}
+
+}  // namespace
+
+void addScattering(FrameResources& frame, const Material& material, const KernelConfig& config,
+                   ShadeArguments& arguments) {
+  if (config.all_materials)
+    arguments.add("scatter",
+                  frame.kept<AllScattering>([&] { return uploadAll(frame, config); }).buffer);
+  else
+    arguments.add("scatter",
+                  upload(frame.device, std::vector{prepareMultiscatter(material, config)},
+                         BufferPurpose::kScattering));
+}
+
+}  // namespace glintmark

@@ -1,0 +1,63 @@
+// What one effect is to the host: all that the program knows of it stands in one file of
+// host/frame/effect, as one of these.
+#pragma once
+#include <span>
+#include <string_view>
+
+#include "host/core/planes.h"
+#include "host/core/shared_types.h"
+#include "host/frame/effect_set.h"
+#include "host/frame/frame_resources.h"
+#include "host/frame/shade_arguments.h"
+#include "host/frame/shading_options.h"
+#include "host/ocl/kernel_config.h"
+#include "host/scene/scene.h"
+
+namespace glintmark {
+
+/// What a program is made for: one material under the lights of its scene.
+struct ProgramCall {
+  const Material& material;
+  const Scene& scene;
+  const ShadingOptions& options;
+  bool truth = false;  // the ground truth's program, kernels/truth.cl
+};
+
+/// Functions that an effect has no use for are null.
+struct EffectModule {
+  std::string_view name;  // "glints"
+  EffectSet needs{};      // effects without which this one does nothing
+
+  bool (*called_for)(const Scene& scene);
+  /// Takes it out of a scene, or out of options; smooth lobes and Lambert's stand in.
+  void (*strip)(Scene& scene) = nullptr;
+  void (*strip_options)(ShadingOptions& options) = nullptr;
+
+  /// Sets its switches in a program; those of effects before it are set.
+  void (*choose)(const ProgramCall& call, KernelConfig& config) = nullptr;
+  bool (*is_in)(const KernelConfig& config) = nullptr;
+  uint bit = 0;        // EFFECT_* of kernels/types.h
+  PlaneMask planes{};  // what a program with it reads
+
+  /// May two materials' programs, as far as this effect goes, become one?
+  bool (*agree)(const KernelConfig& a, const KernelConfig& b) = nullptr;
+  /// Compiles it into a program for all materials; `own` holds the materials' own switches.
+  void (*choose_for_all)(std::span<const KernelConfig> own, const ShadingOptions& options,
+                         KernelConfig& all) = nullptr;
+
+  /// Adds what its kernel functions read: of `material`, or of all if `config` is for all.
+  void (*add_arguments)(FrameResources& frame, const Material& material, const KernelConfig& config,
+                        ShadeArguments& arguments) = nullptr;
+  /// Sets what it reads of the frame's parameters.
+  void (*describe)(FrameResources& frame, const KernelConfig& config,
+                   FrameParams& params) = nullptr;
+};
+
+/// By effect; and all, in the order of the enumeration.
+const EffectModule& effectModule(Effect effect);
+std::span<const EffectModule* const> effectModules();
+
+#define EFFECT(enumerator, module) const EffectModule& module();
+#include "host/frame/effect/all_effects.inc"
+
+}  // namespace glintmark

@@ -1,0 +1,39 @@
+// The argument list of a shading kernel: of frames, of the ground truth and of hand-made pixels.
+#pragma once
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "host/ocl/compute.h"
+
+namespace glintmark {
+
+/// What every kernel of kernels/shade.cl and truth.cl reads first, by its names for them.
+struct ShadeInputs {
+  Buffer planes, frame, material, lights, taps;
+};
+
+/// Arguments in the kernel's order, each under the name that the kernel has for it.
+class ShadeArguments {
+ public:
+  explicit ShadeArguments(const ShadeInputs& inputs);
+
+  void add(std::string name, KernelArg value);
+  std::span<const KernelArg> values() const { return values_; }
+
+  /// Throws Error naming the first argument that is not the kernel's parameter of that place: two
+  /// buffers in each other's place would otherwise run, and shade nonsense. Where the device keeps
+  /// no names, nothing is checked.
+  void requireNamesOf(const Kernel& kernel) const;
+
+ private:
+  std::vector<std::string> names_;
+  std::vector<KernelArg> values_;
+};
+
+/// Launches `kernel` over `items` work-items after requireNamesOf().
+LaunchTimes launchShading(Kernel& kernel, const ShadeArguments& arguments, std::size_t items,
+                          std::size_t local_size);
+
+}  // namespace glintmark

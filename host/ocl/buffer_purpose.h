@@ -1,0 +1,31 @@
+// What device buffers are for: by this they are counted, and named in messages.
+#pragma once
+#include <string_view>
+
+namespace glintmark {
+
+enum class BufferPurpose {
+  kPlanes,
+  kRadiance,
+  kCellCounts,
+  kOwners,
+  kFrameParams,
+  kMaterials,
+  kScattering,
+  kLights,
+  kTaps,
+  kNormalMapLayouts,
+  kNormalMaps,
+  kAreaLights,
+  kLightPictureLayouts,
+  kLightPictures,
+  kCosineTable,
+  kSimulation,
+  kMixtureFit,
+  kProbe,
+};
+
+/// "the rasterized planes", ... as messages and traces say it.
+std::string_view purposeName(BufferPurpose purpose);
+
+}  // namespace glintmark

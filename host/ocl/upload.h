@@ -1,0 +1,22 @@
+// Arrays on their way to the device.
+#pragma once
+#include <vector>
+
+#include "host/ocl/compute.h"
+
+namespace glintmark {
+
+/// A buffer that holds `items`, for kernels to read; of none, room for one, since OpenCL has no
+/// empty buffers. Throws Error as Buffer does.
+template <typename T>
+Buffer upload(Device& device, const std::vector<T>& items, BufferPurpose purpose) {
+  const std::size_t bytes = items.size() * sizeof(T);
+  Buffer buffer(device, bytes > 0 ? bytes : sizeof(T), purpose);
+  if (bytes > 0)
+    buffer.write(items.data(), bytes);
+  else
+    buffer.fillZero();
+  return buffer;
+}
+
+}  // namespace glintmark
