@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "host/core/error.h"
+#include "host/experiment/all_tables.h"
 #include "host/fit/ltc_table.h"
 #include "host/mixture/mixture_cache.h"
 #include "host/report/page/html_report.h"
@@ -60,7 +61,7 @@ std::filesystem::path scratchFile(std::string_view extension) {
 }
 
 void checkPage(const Results& results) {
-  const std::string page = htmlReport(results, {}, "results.json");
+  const std::string page = htmlReport(results, allTableSpecs(), {}, "results.json");
   std::size_t scripts = 0;
   for (std::size_t at = 0; (at = page.find("</script", at)) != std::string::npos; ++at) ++scripts;
   require(scripts == kPageScripts);
