@@ -108,7 +108,7 @@ void readResultsFile(std::string_view bytes) {
     // What was read can be written and read again.
     require(fromJson(toJson(results), "copy").records.size() == results.records.size());
     toCsv(results.records);
-    comparisonText(compareResults(results, results, 0.05), true);
+    comparisonText(compareResults(results, results, allTableSpecs(), 0.05), true);
     checkPage(results);
   } catch (const Error&) {
   }

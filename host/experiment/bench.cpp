@@ -80,10 +80,10 @@ int runBench(const Session& session, const std::vector<std::string>& names,
   }
   BenchRun run(session, options);
   for (const BenchTable& table : tables) table.measure(run);
-  std::string text;
-  for (const BenchTable& table : tables) text += (text.empty() ? "" : "\n") + table.text(run);
+  std::vector<std::string> texts;
+  for (const BenchTable& table : tables) texts.push_back(table.text(run));
   if (!options.trace.empty()) writeTrace(options.trace, run.info());
-  return run.finish(text);
+  return run.finish(fmt::format("{}", fmt::join(texts, "\n")));
 }
 
 }  // namespace glintmark

@@ -225,6 +225,7 @@ const TableSpec& accuracySpec() {
            {"frame_to_frame_error", "1", "frame-to-frame error",
             "glints: colour error of the change from frame to frame, three frames a quarter of a "
             "pixel apart, against the change by method `exact`"}},
+      .cost_ratios = {"time_ratio"},
       .headline = Headline{"pareto", "settings on the front of accuracy against time", true},
       .section = accuracyHtml,
   };

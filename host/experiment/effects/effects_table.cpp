@@ -87,6 +87,7 @@ const TableSpec& effectsSpec() {
             "and `POCL_CACHE_DIR`"},
            {"uber_build_ms", "ms", "build of the one program"},
            {"programs", "1", "", "different programs of the frame"}},
+      .cost_ratios = {"mixed_over_sum", "mixed_over_sum_worst"},
       .headline = Headline{"uber_over_specialised", "times as long if every effect is compiled in"},
       .pictures = {{.kind = PictureGroup::Kind::kHidden,
                     .pictures = {{"effects_matrix.png", "Time ratios of pairs of effects"}}}},

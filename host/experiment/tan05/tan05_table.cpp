@@ -97,6 +97,7 @@ const TableSpec& tan05Spec() {
            {"half_over_float", "1", "",
             "texels in half precision over single precision, time, in turn"},
            {"fit_ms", "ms", "fit", "mixtures of a 512×512 map, four lobes, not from the cache"}},
+      .cost_ratios = {"gmm_over_toksvig"},
       .headline = Headline{"gmm_over_toksvig", "times Toksvig's time for mixtures of normals"},
       .curves = {{"shading_ms"}},
       // Distances of the zoom-out are measured without a picture each.

@@ -61,6 +61,7 @@ const TableSpec& tao21Spec() {
            {"mc_time_at_equal_error_over_ltc", "1", "Monte Carlo over ours at equal error, time",
             "their time over that of `exact`"},
            {"fit_ms", "ms", "fit", "a table of 64 × 64, from a smaller one"}},
+      .cost_ratios = {"multiscale_over_original", "tao21_over_original"},
       .headline = Headline{"multiscale_over_original",
                            "times the original's time for multi-scale area lights"},
       .curves = {{"shading_ms"}},

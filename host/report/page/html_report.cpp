@@ -46,7 +46,7 @@ std::string headlinesHtml(std::span<const TableSpec> tables, std::span<const Rec
     if (values.empty()) continue;
     html += fmt::format("<a class=\"tile\" href=\"#{}\"><b>{}</b><span>{}</span></a>\n",
                         escapeHtml(table.name), headlineFigure(*table.headline, values),
-                        escapeHtml(table.headline->text));
+                        table.headline->text);
   }
   return html.empty() ? "" : "<div class=\"tiles\">\n" + html + "</div>\n";
 }

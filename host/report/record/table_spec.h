@@ -22,7 +22,7 @@ struct MetricSpec {
 
 /// What one figure says about a table: of several cases, from the least to the most.
 struct Headline {
-  std::string metric, text;
+  std::string metric, text;  // the text as HTML
   bool counts_ones = false;  // how many cases have the value 1 instead
 };
 
@@ -60,6 +60,7 @@ struct TableSpec {
   std::string source{};     // whose figures stand beside ours, and on what; empty for none
   std::string citation{};   // "[ZK16]"
   std::vector<MetricSpec> metrics{};
+  std::vector<std::string> cost_ratios{};  // ratios of times whose numerator is wanted small
   std::optional<Headline> headline{};
   std::vector<TimePart> frame_parts{};  // drawn as bars, in the order of a frame
   // Metrics that are drawn over a knob together, the curves of one chart.
