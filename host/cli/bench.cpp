@@ -3,91 +3,14 @@
 #include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
 #include <memory>
 
 #include "host/cli/command_line.h"
 #include "host/cli/output_options.h"
-#include "host/core/atomic_file.h"
-#include "host/core/error.h"
-#include "host/core/trace.h"
-#include "host/experiment/bench_run.h"
-#include "host/experiment/effects/effects_bench.h"
-#include "host/experiment/interrupt.h"
-#include "host/experiment/msbrdf/msbrdf_bench.h"
-#include "host/experiment/tan05/tan05_bench.h"
-#include "host/experiment/tao21/tao21_bench.h"
-#include "host/experiment/zk16/zk16_bench.h"
+#include "host/experiment/bench.h"
 #include "host/frame/shading_options.h"
-#include "host/report/record/trace_file.h"
 
 namespace glintmark {
-namespace {
-
-// In the order in which they are measured and printed.
-std::vector<BenchTable> allTables() {
-  return {zk16Bench(), tan05Bench(), tao21Bench(), msbrdfBench(), effectsBench()};
-}
-
-std::vector<std::string> namesOf(const std::vector<BenchTable>& tables) {
-  std::vector<std::string> names;
-  for (const BenchTable& table : tables) names.push_back(table.name);
-  return names;
-}
-
-// Throws Error if some chosen name is none of the known ones.
-void requireKnown(const char* what, const std::vector<std::string>& chosen,
-                  const std::vector<std::string>& known) {
-  for (const std::string& name : chosen) {
-    if (std::ranges::find(known, name) == known.end())
-      throw Error(
-          fmt::format("unknown {} '{}'; {}s are {}", what, name, what, fmt::join(known, ", ")));
-  }
-}
-
-// Does the table have any of the chosen names?
-bool offersAny(const std::vector<std::string>& known, const std::vector<std::string>& chosen) {
-  return chosen.empty() || !selectNames(known, chosen).empty();
-}
-
-std::vector<BenchTable> chooseTables(const std::vector<std::string>& names,
-                                     const BenchOptions& options) {
-  std::vector<BenchTable> tables = allTables();
-  requireKnown("table", names, namesOf(tables));
-  if (!names.empty())
-    std::erase_if(tables, [&](const BenchTable& table) {
-      return std::ranges::find(names, table.name) == names.end();
-    });
-  std::vector<std::string> scenes, views;
-  for (const BenchTable& table : tables) {
-    scenes.insert(scenes.end(), table.scenes.begin(), table.scenes.end());
-    views.insert(views.end(), table.views.begin(), table.views.end());
-  }
-  requireKnown("scene", options.scenes, scenes);
-  requireKnown("view", options.views, views);
-  std::erase_if(tables, [&](const BenchTable& table) {
-    return !offersAny(table.scenes, options.scenes) || !offersAny(table.views, options.views);
-  });
-  return tables;
-}
-
-int runBench(const CommandLine& line, const std::vector<std::string>& names,
-             const BenchOptions& options) {
-  const std::vector<BenchTable> tables = chooseTables(names, options);
-  const InterruptGuard guard;
-  if (!options.trace.empty()) {
-    requireWritableFile(options.trace);
-    startTrace();
-  }
-  BenchRun run(line, options);
-  for (const BenchTable& table : tables) table.measure(run);
-  std::string text;
-  for (const BenchTable& table : tables) text += (text.empty() ? "" : "\n") + table.text(run);
-  if (!options.trace.empty()) writeTrace(options.trace, run.info());
-  return run.finish(text);
-}
-
-}  // namespace
 
 void addBenchCommand(CLI::App& app, CommandLine& line) {
   auto options = std::make_shared<BenchOptions>();
@@ -95,7 +18,7 @@ void addBenchCommand(CLI::App& app, CommandLine& line) {
   CLI::App* command = app.add_subcommand("bench", "A paper's timing table beside our times");
   command
       ->add_option("table", *tables,
-                   fmt::format("{} (default: all)", fmt::join(namesOf(allTables()), ", ")))
+                   fmt::format("{} (default: all)", fmt::join(benchTableNames(), ", ")))
       ->type_name("TABLE");
   command->add_option("--scene", options->scenes, "Only these scenes; repeatable")
       ->allow_extra_args(false);

@@ -7,6 +7,7 @@
 #include "host/cli/command_line.h"
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
+#include "host/experiment/all_tables.h"
 #include "host/report/record/comparison.h"
 
 namespace glintmark {
@@ -37,7 +38,7 @@ int runCompare(const CompareOptions& options) {
   const Results before = readResults(options.old_file), after = readResults(options.new_file);
   if (!options.across_devices) requireSameDevice(before.run, after.run);
   const double threshold = options.threshold_percent / 100;
-  const ComparisonReport report = compareResults(before, after, threshold);
+  const ComparisonReport report = compareResults(before, after, allTableSpecs(), threshold);
   if (report.comparisons.empty())
     throw Error(
         fmt::format("{} and {} have no figure in common", options.old_file, options.new_file));

@@ -8,11 +8,11 @@
 #include <memory>
 
 #include "host/cli/fit_commands.h"
-#include "host/cli/mixture_picture.h"
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
 #include "host/core/progress.h"
 #include "host/experiment/interrupt.h"
+#include "host/experiment/mixture_picture.h"
 #include "host/filter/normal_map_generators.h"
 #include "host/mixture/device_mixture_fit.h"
 #include "host/mixture/mixture_cache.h"

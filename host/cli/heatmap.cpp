@@ -4,10 +4,10 @@
 
 #include <memory>
 
-#include "host/cli/angle_sweep.h"
 #include "host/cli/command_line.h"
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
+#include "host/experiment/angle_sweep.h"
 #include "host/experiment/count_cells.h"
 #include "host/frame/frame_renderer.h"
 #include "host/frame/shading_options.h"

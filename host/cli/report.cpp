@@ -8,6 +8,7 @@
 #include "host/cli/command_line.h"
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
+#include "host/experiment/all_tables.h"
 #include "host/report/page/html_report.h"
 
 namespace glintmark {
@@ -33,7 +34,7 @@ int runReport(const std::string& folder, const std::string& output) {
   std::vector<ReportPicture> pictures;
   for (const fs::path& file : pngFiles(folder)) pictures.push_back(readReportPicture(file));
   const std::string page =
-      htmlReport(results, pictures,
+      htmlReport(results, allTableSpecs(), pictures,
                  fs::path(source).lexically_proximate(fs::absolute(output).parent_path()).string());
   if (page.size() > kMostPageBytes)
     throw Error(fmt::format("the page would have {:.1f} MB without pictures, {} MB is the most",
