@@ -1,7 +1,6 @@
 // glintmark bench: the papers' timing tables.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <CLI/CLI.hpp>
 
 #include <memory>
 
@@ -12,32 +11,31 @@
 
 namespace glintmark {
 
-void addBenchCommand(CLI::App& app, CommandLine& line) {
+void addBenchCommand(Command app, CommandLine& line) {
   auto options = std::make_shared<BenchOptions>();
   auto tables = std::make_shared<std::vector<std::string>>();
-  CLI::App* command = app.add_subcommand("bench", "A paper's timing table beside our times");
+  Command command = app.subcommand("bench", "A paper's timing table beside our times");
   command
-      ->add_option("table", *tables,
-                   fmt::format("{} (default: all)", fmt::join(benchTableNames(), ", ")))
-      ->type_name("TABLE");
-  command->add_option("--scene", options->scenes, "Only these scenes; repeatable")
-      ->allow_extra_args(false);
-  command->add_option("--view", options->views, "Only these views: steep, grazing; repeatable")
-      ->allow_extra_args(false);
-  command->add_option("--size", options->size, "Image size (default: 1920x1080, the paper's)")
-      ->type_name("WxH");
-  command->add_option("--method", options->method, methodHelp());
-  command->add_option("--reps", options->reps, "Repetitions of every measurement (default: 9)");
-  addOutputOptions(*command, *options);
-  command->add_option("--trace", options->trace, "Also writes a Chrome/Perfetto trace of the run")
-      ->type_name("FILE");
-  command->footer(
+      .option("table", *tables,
+              fmt::format("{} (default: all)", fmt::join(benchTableNames(), ", ")))
+      .typeName("TABLE");
+  command.option("--scene", options->scenes, "Only these scenes; repeatable").oneValueEach();
+  command.option("--view", options->views, "Only these views: steep, grazing; repeatable")
+      .oneValueEach();
+  command.option("--size", options->size, "Image size (default: 1920x1080, the paper's)")
+      .typeName("WxH");
+  command.option("--method", options->method, methodHelp());
+  command.option("--reps", options->reps, "Repetitions of every measurement (default: 9)");
+  addOutputOptions(command, *options);
+  command.option("--trace", options->trace, "Also writes a Chrome/Perfetto trace of the run")
+      .typeName("FILE");
+  command.footer(
       "Examples:\n"
       "  glintmark bench\n"
       "  glintmark bench zk16 --scene sponza --view grazing --reps 25\n"
       "  glintmark bench zk16 --resume -o results/mine --json mine.json\n"
       "  glintmark bench tan05 --scene disk --trace trace.json    (open it at ui.perfetto.dev)");
-  command->callback([options, tables, &line] {
+  command.callback([options, tables, &line] {
     line.action = [options, tables, &line] { return runBench(line, *tables, *options); };
   });
 }
