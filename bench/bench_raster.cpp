@@ -166,14 +166,17 @@ void compareWithEmbree() {
     return [&, mode] { traceEmbree(embree, camera, mode, embree_ids); };
   };
   std::vector<Contestant> contestants = {
-      {"visibility and resolve, 11 planes",
-       [&] { rasterizer.render(mesh, camera, false, kGlintPlanes, planes); }},
-      {"visibility only", [&] { rasterizer.renderVisibility(mesh, camera, false, ids); }},
-      {"rtcIntersect16 and the same 11 planes",
-       [&] { embree_renderer.render(embree, mesh, camera, kGlintPlanes, embree_planes); }},
-      {"rtcIntersect16", trace(RayMode::kPacket16)},
-      {"rtcIntersect1", trace(RayMode::kSingle)},
-      {"rtcIntersect1M", trace(RayMode::kStream)}};
+    {"visibility and resolve, 11 planes",
+     [&] { rasterizer.render(mesh, camera, false, kGlintPlanes, planes); }},
+    {"visibility only", [&] { rasterizer.renderVisibility(mesh, camera, false, ids); }},
+    {"rtcIntersect16 and the same 11 planes",
+     [&] { embree_renderer.render(embree, mesh, camera, kGlintPlanes, embree_planes); }},
+    {"rtcIntersect16", trace(RayMode::kPacket16)},
+    {"rtcIntersect1", trace(RayMode::kSingle)},
+#if GLINTMARK_RAY_STREAMS
+    {"rtcIntersect1M", trace(RayMode::kStream)},
+#endif
+  };
   race(contestants);
 
   fmt::print("{} triangles, 1920x1080, {} px covered, {} rounds\n", mesh.triangleCount(),

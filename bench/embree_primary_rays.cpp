@@ -40,13 +40,6 @@ struct RayGrid {
   float near_plane;
 };
 
-RTCIntersectContext coherentContext() {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  return context;
-}
-
 void setRay(const RayGrid& grid, int x, int y, RTCRayHit& hit) {
   const glm::vec3 d = grid.direction(x, y);
   hit.ray = {grid.origin.x,
@@ -66,31 +59,30 @@ void setRay(const RayGrid& grid, int x, int y, RTCRayHit& hit) {
 }
 
 void traceSingle(RTCScene scene, const RayGrid& grid, const Tile& tile, std::uint32_t* ids) {
-  RTCIntersectContext context = coherentContext();
   RTCRayHit hit;
   for (int y = tile.y0; y < tile.y1; ++y)
     for (int x = tile.x0; x < tile.x1; ++x) {
       setRay(grid, x, y, hit);
-      rtcIntersect1(scene, &context, &hit);
+      test::intersect(scene, hit, test::RayOrder::kCoherent);
       ids[grid.index(x, y)] = hit.hit.primID;
     }
 }
 
+#if GLINTMARK_RAY_STREAMS
 void traceStream(RTCScene scene, const RayGrid& grid, const Tile& tile, std::uint32_t* ids) {
-  RTCIntersectContext context = coherentContext();
   RTCRayHit hits[kTile_px * kTile_px];
   unsigned count = 0;
   for (int y = tile.y0; y < tile.y1; ++y)
     for (int x = tile.x0; x < tile.x1; ++x) setRay(grid, x, y, hits[count++]);
-  rtcIntersect1M(scene, &context, hits, count, sizeof(RTCRayHit));
+  test::intersectStream(scene, hits, count, test::RayOrder::kCoherent);
   count = 0;
   for (int y = tile.y0; y < tile.y1; ++y)
     for (int x = tile.x0; x < tile.x1; ++x) ids[grid.index(x, y)] = hits[count++].hit.primID;
 }
+#endif
 
 // Packets of 4 x 4 pixels.
 void tracePackets(RTCScene scene, const RayGrid& grid, const Tile& tile, std::uint32_t* ids) {
-  RTCIntersectContext context = coherentContext();
   alignas(64) RTCRayHit16 hit;
   alignas(64) int valid[16];
   for (int y = tile.y0; y < tile.y1; y += 4)
@@ -114,7 +106,7 @@ void tracePackets(RTCScene scene, const RayGrid& grid, const Tile& tile, std::ui
         hit.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
         hit.hit.primID[i] = RTC_INVALID_GEOMETRY_ID;
       }
-      rtcIntersect16(valid, scene, &context, &hit);
+      test::intersect16(scene, valid, hit, test::RayOrder::kCoherent);
       for (int i = 0; i < 16; ++i)
         if (valid[i]) ids[grid.index(x + i % 4, y + i / 4)] = hit.hit.primID[i];
     }
@@ -174,9 +166,11 @@ void traceEmbree(const test::EmbreeOracle& oracle, const Camera& camera, RayMode
       case RayMode::kPacket16:
         tracePackets(oracle.scene(), grid, tile, triangle_ids.data());
         break;
+#if GLINTMARK_RAY_STREAMS
       case RayMode::kStream:
         traceStream(oracle.scene(), grid, tile, triangle_ids.data());
         break;
+#endif
     }
   });
 }

@@ -9,7 +9,13 @@
 
 namespace glintmark::bench {
 
-enum class RayMode { kSingle, kPacket16, kStream };
+enum class RayMode {
+  kSingle,
+  kPacket16,
+#if GLINTMARK_RAY_STREAMS
+  kStream,
+#endif
+};
 
 /// First triangle per pixel, row by row, kNoTriangle where there is none.
 void traceEmbree(const test::EmbreeOracle& oracle, const Camera& camera, RayMode mode,

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "host/core/error.h"
+#include "host/experiment/all_tables.h"
 #include "host/fit/ltc_table.h"
 #include "host/mixture/mixture_cache.h"
 #include "host/report/page/html_report.h"
@@ -60,7 +61,7 @@ std::filesystem::path scratchFile(std::string_view extension) {
 }
 
 void checkPage(const Results& results) {
-  const std::string page = htmlReport(results, {}, "results.json");
+  const std::string page = htmlReport(results, allTableSpecs(), {}, "results.json");
   std::size_t scripts = 0;
   for (std::size_t at = 0; (at = page.find("</script", at)) != std::string::npos; ++at) ++scripts;
   require(scripts == kPageScripts);
@@ -107,7 +108,7 @@ void readResultsFile(std::string_view bytes) {
     // What was read can be written and read again.
     require(fromJson(toJson(results), "copy").records.size() == results.records.size());
     toCsv(results.records);
-    comparisonText(compareResults(results, results, 0.05), true);
+    comparisonText(compareResults(results, results, allTableSpecs(), 0.05), true);
     checkPage(results);
   } catch (const Error&) {
   }

@@ -2,11 +2,8 @@
 #pragma once
 #include <functional>
 
+#include "host/cli/command.h"
 #include "host/experiment/session.h"
-
-namespace CLI {
-class App;
-}
 
 namespace glintmark {
 
@@ -16,15 +13,15 @@ struct CommandLine : Session {
   std::function<int()> action;
 };
 
-void addInfoCommand(CLI::App& app, CommandLine& line);
-void addRenderCommand(CLI::App& app, CommandLine& line);
-void addHeatmapCommand(CLI::App& app, CommandLine& line);
-void addAccuracyCommand(CLI::App& app, CommandLine& line);
-void addBenchCommand(CLI::App& app, CommandLine& line);
-void addSimulateCommand(CLI::App& app, CommandLine& line);
-void addFitCommand(CLI::App& app, CommandLine& line);
-void addCompareCommand(CLI::App& app, CommandLine& line);
-void addReportCommand(CLI::App& app, CommandLine& line);
-void addVerifyCommand(CLI::App& app, CommandLine& line);
+void addInfoCommand(Command app, CommandLine& line);
+void addRenderCommand(Command app, CommandLine& line);
+void addHeatmapCommand(Command app, CommandLine& line);
+void addAccuracyCommand(Command app, CommandLine& line);
+void addBenchCommand(Command app, CommandLine& line);
+void addSimulateCommand(Command app, CommandLine& line);
+void addFitCommand(Command app, CommandLine& line);
+void addCompareCommand(Command app, CommandLine& line);
+void addReportCommand(Command app, CommandLine& line);
+void addVerifyCommand(Command app, CommandLine& line);
 
 }  // namespace glintmark

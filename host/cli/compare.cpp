@@ -1,12 +1,12 @@
 // glintmark compare: did a newer run get better or worse?
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <memory>
 
 #include "host/cli/command_line.h"
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
+#include "host/experiment/all_tables.h"
 #include "host/report/record/comparison.h"
 
 namespace glintmark {
@@ -37,7 +37,7 @@ int runCompare(const CompareOptions& options) {
   const Results before = readResults(options.old_file), after = readResults(options.new_file);
   if (!options.across_devices) requireSameDevice(before.run, after.run);
   const double threshold = options.threshold_percent / 100;
-  const ComparisonReport report = compareResults(before, after, threshold);
+  const ComparisonReport report = compareResults(before, after, allTableSpecs(), threshold);
   if (report.comparisons.empty())
     throw Error(
         fmt::format("{} and {} have no figure in common", options.old_file, options.new_file));
@@ -49,25 +49,25 @@ int runCompare(const CompareOptions& options) {
 
 }  // namespace
 
-void addCompareCommand(CLI::App& app, CommandLine& line) {
+void addCompareCommand(Command app, CommandLine& line) {
   auto options = std::make_shared<CompareOptions>();
-  CLI::App* command = app.add_subcommand("compare", "What changed between two results files");
-  command->add_option("old", options->old_file, "results.json of the run before")->required();
-  command->add_option("new", options->new_file, "results.json of the run after")->required();
+  Command command = app.subcommand("compare", "What changed between two results files");
+  command.option("old", options->old_file, "results.json of the run before").required();
+  command.option("new", options->new_file, "results.json of the run after").required();
   command
-      ->add_option("--threshold", options->threshold_percent,
-                   "Smallest difference that counts [%] (default: 5)")
-      ->type_name("PERCENT");
-  command->add_flag("--all", options->all, "Also lists what did not change");
-  command->add_flag("--across-devices", options->across_devices,
-                    "Compares runs of different devices, drivers or lanes");
-  command->add_option("--json", options->json, "Also writes the comparison to this file")
-      ->type_name("FILE");
-  command->footer(
+      .option("--threshold", options->threshold_percent,
+              "Smallest difference that counts [%] (default: 5)")
+      .typeName("PERCENT");
+  command.flag("--all", options->all, "Also lists what did not change");
+  command.flag("--across-devices", options->across_devices,
+               "Compares runs of different devices, drivers or lanes");
+  command.option("--json", options->json, "Also writes the comparison to this file")
+      .typeName("FILE");
+  command.footer(
       "A difference counts if it is beyond the threshold and beyond noise (Welch's t on the\n"
       "medians, 1 %). Exit code 1: something got worse, or is no longer valid.\n"
       "Example:\n  glintmark compare before/results.json after/results.json --threshold 3");
-  command->callback([options, &line] { line.action = [options] { return runCompare(*options); }; });
+  command.callback([options, &line] { line.action = [options] { return runCompare(*options); }; });
 }
 
 }  // namespace glintmark

@@ -1,6 +1,5 @@
 // glintmark fit: what is computed once, before any frame.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <filesystem>
 
@@ -16,14 +15,14 @@ void requireWritablePicture(const std::string& file) {
   requireWritableFile(file);
 }
 
-void addFitCommand(CLI::App& app, CommandLine& line) {
-  CLI::App* command = app.add_subcommand("fit", "Computes the tables that shading needs");
-  command->require_subcommand(1);
-  addFitGmmCommand(*command, line);
-  addFitLtcCommand(*command, line);
-  addFitMesoCommand(*command, line);
-  addFitLobesCommand(*command, line);
-  for (CLI::App* table : command->get_subcommands(nullptr)) table->fallthrough();
+void addFitCommand(Command app, CommandLine& line) {
+  Command command = app.subcommand("fit", "Computes the tables that shading needs");
+  command.requireSubcommand();
+  addFitGmmCommand(command, line);
+  addFitLtcCommand(command, line);
+  addFitMesoCommand(command, line);
+  addFitLobesCommand(command, line);
+  command.shareOptions();
 }
 
 }  // namespace glintmark

@@ -4,10 +4,10 @@
 
 namespace glintmark {
 
-void addFitGmmCommand(CLI::App& fit, CommandLine& line);
-void addFitLtcCommand(CLI::App& fit, CommandLine& line);
-void addFitMesoCommand(CLI::App& fit, CommandLine& line);
-void addFitLobesCommand(CLI::App& fit, CommandLine& line);
+void addFitGmmCommand(Command fit, CommandLine& line);
+void addFitLtcCommand(Command fit, CommandLine& line);
+void addFitMesoCommand(Command fit, CommandLine& line);
+void addFitLobesCommand(Command fit, CommandLine& line);
 
 /// Makes sure that `file` ends in .png and can be written. Throws Error.
 void requireWritablePicture(const std::string& file);

@@ -1,18 +1,17 @@
 // glintmark fit gmm: mip chains of Gaussian mixtures of normals, and how good they are.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <filesystem>
 #include <memory>
 
 #include "host/cli/fit_commands.h"
-#include "host/cli/mixture_picture.h"
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
 #include "host/core/progress.h"
 #include "host/experiment/interrupt.h"
+#include "host/experiment/mixture_picture.h"
 #include "host/filter/normal_map_generators.h"
 #include "host/mixture/device_mixture_fit.h"
 #include "host/mixture/mixture_cache.h"
@@ -229,55 +228,51 @@ int runFitGmm(const CommonOptions& common, FitGmmCommand& command) {
 
 }  // namespace
 
-void addFitGmmCommand(CLI::App& fit, CommandLine& line) {
+void addFitGmmCommand(Command fit, CommandLine& line) {
   auto options = std::make_shared<FitGmmCommand>();
-  CLI::App* command = fit.add_subcommand(
-      "gmm", "Mip chains of Gaussian mixtures of a map's normals, and their error");
+  Command command =
+      fit.subcommand("gmm", "Mip chains of Gaussian mixtures of a map's normals, and their error");
   command
-      ->add_option(
+      .option(
           "map", options->source,
           fmt::format("Image of normals or heights, or {}", fmt::join(normalMapGenerators(), ", ")))
-      ->type_name("MAP");
-  command->add_option("--scene", options->scene, "A scene's map instead, with --set as elsewhere");
-  command->add_option("--material", options->material,
-                      "Which of the scene's materials (default: the first with a map)");
-  command
-      ->add_option("--lobes", options->options.lobes,
-                   "Gaussians a texel, 1 to 8 (default: the scene's, or 4)")
-      ->each([options](const std::string&) { options->has_lobes = true; });
-  command->add_option("--order", options->order,
-                      "colours, scanline (as published), independent (default: colours)");
-  command->add_option("--iterations", options->options.max_iterations,
-                      "Most EM steps of a texel in a pass (default: 4)");
-  command->add_option("--passes", options->options.passes,
-                      "Over all levels; from the second on finer texels count too (default: 2)");
-  command->add_option("--size", options->size_px,
-                      "Texels a side of a generated map (default: 512)");
-  command->add_option("--seed", options->seed, "Of a generated map (default: 1)");
-  command->add_option("--content", options->content, "auto, normals, heights (default: auto)");
-  command->add_option("--green", options->green,
-                      "up or down: where green points in an image of normals (default: up)");
-  command
-      ->add_option("--height-scale", options->height_scale,
-                   "Height of the value 1 in sides of the map (default: 1 generated, 0.05 images)")
-      ->each([options](const std::string&) { options->has_height_scale = true; });
-  command->add_option("-o,--output", options->output, "The mixtures")->type_name("FILE");
-  command->add_option("--check", options->check, "Measure this file's mixtures; fit nothing")
-      ->type_name("FILE");
-  command
-      ->add_option("--picture", options->picture, "Lobes of a level, with and without neighbours")
-      ->type_name("FILE.png");
-  command->add_option("--on", options->on,
-                      "host or device, which fits anew each time (default: host)");
-  command->add_flag("--refit", options->refit, "Do not look into the cache");
-  command->footer(
+      .typeName("MAP");
+  command.option("--scene", options->scene, "A scene's map instead, with --set as elsewhere");
+  command.option("--material", options->material,
+                 "Which of the scene's materials (default: the first with a map)");
+  const CommandOption lobes = command.option(
+      "--lobes", options->options.lobes, "Gaussians a texel, 1 to 8 (default: the scene's, or 4)");
+  command.option("--order", options->order,
+                 "colours, scanline (as published), independent (default: colours)");
+  command.option("--iterations", options->options.max_iterations,
+                 "Most EM steps of a texel in a pass (default: 4)");
+  command.option("--passes", options->options.passes,
+                 "Over all levels; from the second on finer texels count too (default: 2)");
+  command.option("--size", options->size_px, "Texels a side of a generated map (default: 512)");
+  command.option("--seed", options->seed, "Of a generated map (default: 1)");
+  command.option("--content", options->content, "auto, normals, heights (default: auto)");
+  command.option("--green", options->green,
+                 "up or down: where green points in an image of normals (default: up)");
+  const CommandOption height_scale = command.option(
+      "--height-scale", options->height_scale,
+      "Height of the value 1 in sides of the map (default: 1 generated, 0.05 images)");
+  command.option("-o,--output", options->output, "The mixtures").typeName("FILE");
+  command.option("--check", options->check, "Measure this file's mixtures; fit nothing")
+      .typeName("FILE");
+  command.option("--picture", options->picture, "Lobes of a level, with and without neighbours")
+      .typeName("FILE.png");
+  command.option("--on", options->on, "host or device, which fits anew each time (default: host)");
+  command.flag("--refit", options->refit, "Do not look into the cache");
+  command.footer(
       "Examples:\n"
       "  glintmark fit gmm disk --lobes 4 -o disk.mixtures --picture disk.png\n"
       "  glintmark fit gmm stone_normal.png --green down --passes 3\n"
       "  glintmark fit gmm height.exr --content heights --height-scale 0.1\n"
       "  glintmark fit gmm --scene armour --set material.gold.normal_map.size_px=1024\n"
       "  glintmark fit gmm disk --check disk.mixtures");
-  command->callback([options, &line] {
+  command.callback([options, lobes, height_scale, &line] {
+    options->has_lobes = lobes.given();
+    options->has_height_scale = height_scale.given();
     line.action = [options, &line] { return runFitGmm(line.common, *options); };
   });
 }

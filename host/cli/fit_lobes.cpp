@@ -1,6 +1,5 @@
 // glintmark fit lobes: simulations over roughness and incidence, and what is fitted to them.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <memory>
@@ -204,24 +203,23 @@ int runFitLobes(const CommandLine& line, const FitLobesOptions& options) {
 
 }  // namespace
 
-void addFitLobesCommand(CLI::App& fit, CommandLine& line) {
+void addFitLobesCommand(Command fit, CommandLine& line) {
   auto options = std::make_shared<FitLobesOptions>();
-  CLI::App* command =
-      fit.add_subcommand("lobes", "Lobes of multiple scattering, and the albedo of rough mirrors");
-  command->add_option("-o,--output", options->folder, "Tables and pictures (results/latest)")
-      ->type_name("FOLDER");
-  command->add_option("--data", options->data, "Where multiscatter.json goes (the output folder)")
-      ->type_name("FILE");
-  command->add_option("--rays", options->rays, "Rays per roughness and incidence (2^21)");
-  command->add_option("--mirror-rays", options->mirror_rays, "Rays per entry of the mirror (2^17)");
-  command
-      ->add_option("--picture", options->picture, "Errors over roughness and incidence, sections")
-      ->type_name("FILE.png");
-  command->footer(
+  Command command =
+      fit.subcommand("lobes", "Lobes of multiple scattering, and the albedo of rough mirrors");
+  command.option("-o,--output", options->folder, "Tables and pictures (results/latest)")
+      .typeName("FOLDER");
+  command.option("--data", options->data, "Where multiscatter.json goes (the output folder)")
+      .typeName("FILE");
+  command.option("--rays", options->rays, "Rays per roughness and incidence (2^21)");
+  command.option("--mirror-rays", options->mirror_rays, "Rays per entry of the mirror (2^17)");
+  command.option("--picture", options->picture, "Errors over roughness and incidence, sections")
+      .typeName("FILE.png");
+  command.footer(
       "Examples:\n"
       "  glintmark fit lobes --rays 100000 --mirror-rays 10000 --picture residuals.png\n"
       "  glintmark fit lobes --data data/multiscatter.json");
-  command->callback(
+  command.callback(
       [options, &line] { line.action = [options, &line] { return runFitLobes(line, *options); }; });
 }
 

@@ -1,6 +1,5 @@
 // glintmark fit ltc: tables of linearly transformed cosines, and how good they are.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <memory>
@@ -144,23 +143,23 @@ int runFitLtc(const CommonOptions& common, const FitLtcCommand& command) {
 
 }  // namespace
 
-void addFitLtcCommand(CLI::App& fit, CommandLine& line) {
+void addFitLtcCommand(Command fit, CommandLine& line) {
   auto options = std::make_shared<FitLtcCommand>();
-  CLI::App* command = fit.add_subcommand(
-      "ltc", "Linearly transformed cosines of a microfacet BRDF, and their error");
-  command->add_option("--ndf", options->ndf, "ggx or beckmann (default: ggx)");
-  command->add_option("--size", options->size, "Nodes along each axis, 8 to 128 (default: 64)");
-  command->add_option("-o,--output", options->output, "The table")->type_name("FILE");
-  command->add_option("--picture", options->picture, "Error of every node in false colours")
-      ->type_name("FILE.png");
-  command->add_option("--compare", options->compare, "Published ltc.mat to compare with")
-      ->type_name("FILE");
-  command->add_flag("--shipped", options->shipped, "Measure the table that ships; fit nothing");
-  command->footer(
+  Command command =
+      fit.subcommand("ltc", "Linearly transformed cosines of a microfacet BRDF, and their error");
+  command.option("--ndf", options->ndf, "ggx or beckmann (default: ggx)");
+  command.option("--size", options->size, "Nodes along each axis, 8 to 128 (default: 64)");
+  command.option("-o,--output", options->output, "The table").typeName("FILE");
+  command.option("--picture", options->picture, "Error of every node in false colours")
+      .typeName("FILE.png");
+  command.option("--compare", options->compare, "Published ltc.mat to compare with")
+      .typeName("FILE");
+  command.flag("--shipped", options->shipped, "Measure the table that ships; fit nothing");
+  command.footer(
       "Examples:\n"
       "  glintmark fit ltc --ndf beckmann -o ltc_beckmann.table\n"
       "  glintmark fit ltc --shipped --picture fit_error.png");
-  command->callback([options, &line] {
+  command.callback([options, &line] {
     line.action = [options, &line] { return runFitLtc(line.common, *options); };
   });
 }

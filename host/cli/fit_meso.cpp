@@ -1,6 +1,5 @@
 // glintmark fit meso: constants of kernels/area/meso_table.h, and how good they are.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <memory>
 
@@ -43,12 +42,12 @@ int runFitMeso(int count) {
 
 }  // namespace
 
-void addFitMesoCommand(CLI::App& fit, CommandLine& line) {
+void addFitMesoCommand(Command fit, CommandLine& line) {
   auto count = std::make_shared<int>(32);
-  CLI::App* command = fit.add_subcommand(
+  Command command = fit.subcommand(
       "meso", "Constants of the meso scale: mean length to roughness, roughness of both scales");
-  command->add_option("--grid", *count, "Roughnesses along each axis, 1 to 33 (default: 32)");
-  command->callback([count, &line] { line.action = [count] { return runFitMeso(*count); }; });
+  command.option("--grid", *count, "Roughnesses along each axis, 1 to 33 (default: 32)");
+  command.callback([count, &line] { line.action = [count] { return runFitMeso(*count); }; });
 }
 
 }  // namespace glintmark

@@ -1,13 +1,12 @@
 // glintmark heatmap: cells visited per pixel, of one view or over a sweep of angles. [ZK16] Fig. 9
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <memory>
 
-#include "host/cli/angle_sweep.h"
 #include "host/cli/command_line.h"
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
+#include "host/experiment/angle_sweep.h"
 #include "host/experiment/count_cells.h"
 #include "host/frame/frame_renderer.h"
 #include "host/frame/shading_options.h"
@@ -96,32 +95,31 @@ int runHeatmap(const CommonOptions& common, const HeatmapCommand& command) {
 
 }  // namespace
 
-void addHeatmapCommand(CLI::App& app, CommandLine& line) {
+void addHeatmapCommand(Command app, CommandLine& line) {
   auto options = std::make_shared<HeatmapCommand>();
-  CLI::App* command =
-      app.add_subcommand("heatmap", "Cells visited per pixel: picture, counts, histogram");
-  command->add_option("scene", options->scene, "Scene name or .toml file (default: screen_plane)")
-      ->type_name("SCENE");
-  command->add_option("-o,--output", options->picture, "False-colour picture with legend")
-      ->type_name("FILE.png");
-  command->add_option("--exr", options->exr, "Raw counts; -1 where no glint material covers")
-      ->type_name("FILE.exr");
-  command->add_option("--view", options->view,
-                      "View of the scene (default: its first; sweep: sweep)");
-  command->add_option("--size", options->size, "Image size (default: 1920x1080; sweep: 960x540)")
-      ->type_name("WxH");
-  command->add_option("--scale", options->scale, "fixed (8 to 64 cells) or auto (default: fixed)");
-  command->add_option("--method", options->method, methodHelp());
-  command->add_flag("--sweep-angle", options->sweep_angle,
-                    "A view that orbits a plane, from 90 to 1 degrees: picture strip and CSV");
-  command->add_option("--csv", options->csv, "Figures of the sweep, one line per angle")
-      ->type_name("FILE.csv");
-  command->footer(
+  Command command =
+      app.subcommand("heatmap", "Cells visited per pixel: picture, counts, histogram");
+  command.option("scene", options->scene, "Scene name or .toml file (default: screen_plane)")
+      .typeName("SCENE");
+  command.option("-o,--output", options->picture, "False-colour picture with legend")
+      .typeName("FILE.png");
+  command.option("--exr", options->exr, "Raw counts; -1 where no glint material covers")
+      .typeName("FILE.exr");
+  command.option("--view", options->view, "View of the scene (default: its first; sweep: sweep)");
+  command.option("--size", options->size, "Image size (default: 1920x1080; sweep: 960x540)")
+      .typeName("WxH");
+  command.option("--scale", options->scale, "fixed (8 to 64 cells) or auto (default: fixed)");
+  command.option("--method", options->method, methodHelp());
+  command.flag("--sweep-angle", options->sweep_angle,
+               "A view that orbits a plane, from 90 to 1 degrees: picture strip and CSV");
+  command.option("--csv", options->csv, "Figures of the sweep, one line per angle")
+      .typeName("FILE.csv");
+  command.footer(
       "Examples:\n"
       "  glintmark heatmap sponza --view grazing -o cells.png --exr cells.exr\n"
       "  glintmark heatmap snow -o cells.png --scale auto --size 960x540\n"
       "  glintmark heatmap --sweep-angle -o sweep.png --csv sweep.csv");
-  command->callback([options, &line] {
+  command.callback([options, &line] {
     line.action = [options, &line] { return runHeatmap(line.common, *options); };
   });
 }

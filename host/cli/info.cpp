@@ -1,6 +1,5 @@
 // glintmark info: devices, and the chosen one's measured peaks.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include "host/cli/command_line.h"
 #include "host/ocl/compute.h"
@@ -39,11 +38,11 @@ int runInfo(const CommandLine& line) {
 
 }  // namespace
 
-void addInfoCommand(CLI::App& app, CommandLine& line) {
-  CLI::App* command =
-      app.add_subcommand("info", "Devices, drivers, lanes, measured FMA peak and bandwidth");
-  command->footer("Examples:\n  glintmark info\n  glintmark info --device 1 --width 8");
-  command->callback([&line] { line.action = [&line] { return runInfo(line); }; });
+void addInfoCommand(Command app, CommandLine& line) {
+  Command command =
+      app.subcommand("info", "Devices, drivers, lanes, measured FMA peak and bandwidth");
+  command.footer("Examples:\n  glintmark info\n  glintmark info --device 1 --width 8");
+  command.callback([&line] { line.action = [&line] { return runInfo(line); }; });
 }
 
 }  // namespace glintmark

@@ -1,6 +1,5 @@
 // glintmark render: one picture of a scene.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <memory>
 #include <optional>
@@ -96,34 +95,32 @@ int runRender(const CommandLine& line, const RenderOptions& options) {
 
 }  // namespace
 
-void addRenderCommand(CLI::App& app, CommandLine& line) {
+void addRenderCommand(Command app, CommandLine& line) {
   auto options = std::make_shared<RenderOptions>();
-  CLI::App* command = app.add_subcommand("render", "Renders one view of a scene to EXR or PNG");
-  command->add_option("scene", options->scene, "Scene name or .toml file")
-      ->required()
-      ->type_name("SCENE");
-  command->add_option("-o,--output", options->output, "Picture: .png tone-mapped, .exr radiance")
-      ->required()
-      ->type_name("FILE");
-  command->add_option("--view", options->view, "View of the scene (default: its first)");
-  command->add_option("--size", options->size, "Image size (default: 1920x1080)")->type_name("WxH");
-  command->add_option("--aov", options->aov_output, "Every rasterized plane as channels of one EXR")
-      ->type_name("FILE");
-  command->add_option("--trace", options->trace, "Chrome/Perfetto trace of host and device")
-      ->type_name("FILE");
-  command->add_option("--method", options->method, methodHelp());
-  command->add_flag("--no-glints", options->no_glints, "Smooth lobes in place of glints");
-  const CLI::Option* star = command->add_flag("--star,!--no-star", options->star,
-                                              "Star-shaped glare (default: the scene's for PNG)");
-  command->add_option("--exposure", options->exposure, "Scale before tone mapping")->type_name("X");
-  command->footer(
+  Command command = app.subcommand("render", "Renders one view of a scene to EXR or PNG");
+  command.option("scene", options->scene, "Scene name or .toml file").required().typeName("SCENE");
+  command.option("-o,--output", options->output, "Picture: .png tone-mapped, .exr radiance")
+      .required()
+      .typeName("FILE");
+  command.option("--view", options->view, "View of the scene (default: its first)");
+  command.option("--size", options->size, "Image size (default: 1920x1080)").typeName("WxH");
+  command.option("--aov", options->aov_output, "Every rasterized plane as channels of one EXR")
+      .typeName("FILE");
+  command.option("--trace", options->trace, "Chrome/Perfetto trace of host and device")
+      .typeName("FILE");
+  command.option("--method", options->method, methodHelp());
+  command.flag("--no-glints", options->no_glints, "Smooth lobes in place of glints");
+  const CommandOption star = command.flag("--star,!--no-star", options->star,
+                                          "Star-shaped glare (default: the scene's for PNG)");
+  command.option("--exposure", options->exposure, "Scale before tone mapping").typeName("X");
+  command.footer(
       "Examples:\n"
       "  glintmark render snow -o snow.png --view grazing\n"
       "  glintmark render sand -o sand.exr --star --size 3840x2160\n"
       "  glintmark render car -o car.png --aov planes.exr --set material.paint.log_density=7\n"
       "  glintmark render snow -o snow.png --trace trace.json    (open it at ui.perfetto.dev)");
-  command->callback([options, star, &line] {
-    options->star_chosen = star->count() > 0;
+  command.callback([options, star, &line] {
+    options->star_chosen = star.given();
     line.action = [options, &line] { return runRender(line, *options); };
   });
 }

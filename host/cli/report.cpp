@@ -1,6 +1,5 @@
 // glintmark report: one page to read, from a folder of results.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <memory>
@@ -8,6 +7,7 @@
 #include "host/cli/command_line.h"
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
+#include "host/experiment/all_tables.h"
 #include "host/report/page/html_report.h"
 
 namespace glintmark {
@@ -33,7 +33,7 @@ int runReport(const std::string& folder, const std::string& output) {
   std::vector<ReportPicture> pictures;
   for (const fs::path& file : pngFiles(folder)) pictures.push_back(readReportPicture(file));
   const std::string page =
-      htmlReport(results, pictures,
+      htmlReport(results, allTableSpecs(), pictures,
                  fs::path(source).lexically_proximate(fs::absolute(output).parent_path()).string());
   if (page.size() > kMostPageBytes)
     throw Error(fmt::format("the page would have {:.1f} MB without pictures, {} MB is the most",
@@ -46,17 +46,17 @@ int runReport(const std::string& folder, const std::string& output) {
 
 }  // namespace
 
-void addReportCommand(CLI::App& app, CommandLine& line) {
+void addReportCommand(Command app, CommandLine& line) {
   struct Options {
     std::string folder, output = "report.html";
   };
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("report", "One page to read, from a folder of results");
-  command->add_option("folder", options->folder, "Results folder of bench")->required();
-  command->add_option("-o,--output", options->output, "The page (default: report.html)")
-      ->type_name("FILE");
-  command->footer("Example:\n  glintmark report results/latest -o report.html");
-  command->callback([options, &line] {
+  Command command = app.subcommand("report", "One page to read, from a folder of results");
+  command.option("folder", options->folder, "Results folder of bench").required();
+  command.option("-o,--output", options->output, "The page (default: report.html)")
+      .typeName("FILE");
+  command.footer("Example:\n  glintmark report results/latest -o report.html");
+  command.callback([options, &line] {
     line.action = [options] { return runReport(options->folder, options->output); };
   });
 }

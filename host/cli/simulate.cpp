@@ -1,6 +1,5 @@
 // glintmark simulate: rays at a rough surface. [PAT18] "Using Brute Force Ray-Casting"
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <memory>
 #include <numbers>
@@ -172,37 +171,36 @@ int runSimulate(const CommandLine& line, const SimulateOptions& options) {
 
 }  // namespace
 
-void addSimulateCommand(CLI::App& app, CommandLine& line) {
+void addSimulateCommand(Command app, CommandLine& line) {
   auto options = std::make_shared<SimulateOptions>();
   SimulationSettings& s = options->settings;
-  CLI::App* command =
-      app.add_subcommand("simulate", "Casts rays at a rough surface and counts what leaves");
-  command->add_option("--surface", options->surface, "diffuse, metal or dielectric")
-      ->type_name("KIND");
-  command->add_option("--alpha", options->alpha, "Beckmann roughness, one or along x and y (0.8)")
-      ->expected(1, 2);
-  command->add_option("--incidence", s.incidence_deg, "Of the light, degrees from the normal (45)");
-  command->add_option("--azimuth", s.azimuth_deg, "Of the light, degrees from x (0)");
-  command->add_option("--ior", s.index_n, "Index of refraction, of metals its real part (1.5)");
-  command->add_option("--k", s.index_k, "Imaginary part of a metal's index (0)");
-  command->add_option("--albedo", options->albedo, "Of diffuse microfacets (1)");
-  command->add_option("--orders", s.orders, "Bounces that rays are followed for, 1 to 6 (4)");
-  command->add_option("--rays", options->rays, "How many, as in 500e6 (2^24)");
-  command->add_option("--seed", s.seed, "Of surfaces and rays (1)");
-  command->add_option("--correlation", s.correlation_texels,
-                      "Correlation length of the heights in texels (3)");
-  command->add_option("--checkpoint", options->checkpoint, "Keeps what is done in this file")
-      ->type_name("FILE");
-  command->add_flag("--resume", options->resume, "Carries on from the checkpoint");
-  command->add_option("-o,--output", options->picture, "Picture of where the orders leave to")
-      ->type_name("FILE.png");
-  command->add_option("--csv", options->csv, "Energy per order")->type_name("FILE");
-  command->footer(
+  Command command =
+      app.subcommand("simulate", "Casts rays at a rough surface and counts what leaves");
+  command.option("--surface", options->surface, "diffuse, metal or dielectric").typeName("KIND");
+  command.option("--alpha", options->alpha, "Beckmann roughness, one or along x and y (0.8)")
+      .values(1, 2);
+  command.option("--incidence", s.incidence_deg, "Of the light, degrees from the normal (45)");
+  command.option("--azimuth", s.azimuth_deg, "Of the light, degrees from x (0)");
+  command.option("--ior", s.index_n, "Index of refraction, of metals its real part (1.5)");
+  command.option("--k", s.index_k, "Imaginary part of a metal's index (0)");
+  command.option("--albedo", options->albedo, "Of diffuse microfacets (1)");
+  command.option("--orders", s.orders, "Bounces that rays are followed for, 1 to 6 (4)");
+  command.option("--rays", options->rays, "How many, as in 500e6 (2^24)");
+  command.option("--seed", s.seed, "Of surfaces and rays (1)");
+  command.option("--correlation", s.correlation_texels,
+                 "Correlation length of the heights in texels (3)");
+  command.option("--checkpoint", options->checkpoint, "Keeps what is done in this file")
+      .typeName("FILE");
+  command.flag("--resume", options->resume, "Carries on from the checkpoint");
+  command.option("-o,--output", options->picture, "Picture of where the orders leave to")
+      .typeName("FILE.png");
+  command.option("--csv", options->csv, "Energy per order").typeName("FILE");
+  command.footer(
       "Examples:\n"
       "  glintmark simulate --alpha 0.8 --incidence 60 -o orders.png\n"
       "  glintmark simulate --surface metal --ior 0.2 --k 3.9 --alpha 0.5 0.1\n"
       "  glintmark simulate --rays 500e6 --checkpoint run.sim --resume");
-  command->callback(
+  command.callback(
       [options, &line] { line.action = [options, &line] { return runSimulate(line, *options); }; });
 }
 

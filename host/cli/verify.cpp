@@ -1,7 +1,6 @@
 // glintmark verify: does this device compute what the papers say?
 #include <fmt/format.h>
 #include <unistd.h>
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -127,23 +126,21 @@ int runVerify(const CommandLine& line, const VerifyOptions& options) {
 
 }  // namespace
 
-void addVerifyCommand(CLI::App& app, CommandLine& line) {
+void addVerifyCommand(Command app, CommandLine& line) {
   auto options = std::make_shared<VerifyOptions>();
-  CLI::App* command = app.add_subcommand(
+  Command command = app.subcommand(
       "verify", "Checks every kernel on the chosen device and width against references");
-  command->add_option("--only", options->only, "Only checks whose name this matches")
-      ->type_name("REGEX");
-  command->add_flag("--list", options->list, "Lists the checks and runs none");
-  command->add_option("--json", options->json, "Also writes the findings to this file")
-      ->type_name("FILE");
-  command->footer(
+  command.option("--only", options->only, "Only checks whose name this matches").typeName("REGEX");
+  command.flag("--list", options->list, "Lists the checks and runs none");
+  command.option("--json", options->json, "Also writes the findings to this file").typeName("FILE");
+  command.footer(
       "A check passes where its worst error is within its bound. Exit code 0: all pass,\n"
       "1: some failed, 3: no device.\n"
       "Examples:\n"
       "  glintmark verify\n"
       "  glintmark verify --device 1 --width 4 --json verify.json\n"
       "  glintmark verify --only '^(polygon|hard_light)/'");
-  command->callback(
+  command.callback(
       [options, &line] { line.action = [options, &line] { return runVerify(line, *options); }; });
 }
 

@@ -10,7 +10,6 @@
 #include "host/core/progress.h"
 #include "host/core/trace.h"
 #include "host/experiment/interrupt.h"
-#include "host/frame/shading_options.h"
 #include "host/report/record/records.h"
 
 namespace glintmark {
@@ -31,8 +30,6 @@ std::map<std::string, std::string> measurementKey(const CommonOptions& common,
 
 // The folder, once it is known that the results can be written.
 std::filesystem::path checkedFolder(const BenchOptions& options) {
-  parseSize(options.size);
-  parseMethod(options.method);
   if (options.reps < 1 || options.reps > 10000)
     throw Error(fmt::format("--reps {} is not from 1 to 10000", options.reps));
   requireWritableFolder(options.folder);
@@ -61,6 +58,8 @@ BenchRun::BenchRun(const Session& session, const BenchOptions& options)
     : session_(session),
       options_(options),
       device_(openDevice(session.common)),
+      size_(parseSize(options.size)),
+      method_(parseMethod(options.method)),
       folder_(checkedFolder(options)),
       lock_(folder_),
       cache_(device_),
@@ -119,14 +118,18 @@ void BenchRun::addDerived(const std::vector<Record>& derived) {
   }
 }
 
-Record BenchRun::record(const std::string& table, const std::string& case_name,
-                        const std::string& metric, const std::string& unit,
-                        const std::vector<double>& samples, const std::string& note) const {
+ShadingOptions BenchRun::shading() const {
+  return {.width_px = size_.width_px, .height_px = size_.height_px, .lanes = info_.width};
+}
+
+Record BenchRun::record(const TableSpec& table, const std::string& case_name,
+                        const std::string& metric, const std::vector<double>& samples,
+                        const std::string& note) const {
   Record record;
-  record.table = table;
+  record.table = table.name;
   record.case_ = case_name;
   record.metric = metric;
-  record.unit = unit;
+  record.unit = table.metric(metric).unit;
   record.value = summarize(samples);
   record.note = note;
   record.config = key_;

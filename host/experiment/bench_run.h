@@ -14,6 +14,7 @@
 #include "host/report/record/folder_lock.h"
 #include "host/report/record/record.h"
 #include "host/report/record/record_log.h"
+#include "host/report/record/table_spec.h"
 
 namespace glintmark {
 
@@ -39,6 +40,13 @@ class BenchRun {
   const Session& session() const { return session_; }
   const BenchOptions& options() const { return options_; }
   const std::filesystem::path& folder() const { return folder_; }
+  /// What the options' size and method say.
+  ImageSize size() const { return size_; }
+  GlintMethod method() const { return method_; }
+  /// Of the rasterizer; 0: all cores.
+  int threads() const { return session_.common.threads; }
+  /// Defaults at the options' size and with the run's lanes; the method stays the default.
+  ShadingOptions shading() const;
   Device& device() { return device_; }
   ProgramCache& cache() { return cache_; }
   const RunInfo& info() const { return info_; }
@@ -60,10 +68,10 @@ class BenchRun {
   /// not logged: a resumed run makes them anew.
   void addDerived(const std::vector<Record>& derived);
 
-  /// A record of `table` with the key as its configuration; `samples` not empty.
-  Record record(const std::string& table, const std::string& case_name, const std::string& metric,
-                const std::string& unit, const std::vector<double>& samples,
-                const std::string& note = "") const;
+  /// A record of `table` in the metric's unit, with the key as its configuration; `samples` not
+  /// empty. Throws Error if the table has no such metric.
+  Record record(const TableSpec& table, const std::string& case_name, const std::string& metric,
+                const std::vector<double>& samples, const std::string& note = "") const;
 
   /// Records of this run, of one table or of all, in order.
   std::vector<Record> recordsOf(const std::string& table) const;
@@ -81,6 +89,8 @@ class BenchRun {
   const Session& session_;
   const BenchOptions& options_;
   Device device_;
+  ImageSize size_;
+  GlintMethod method_;
   std::filesystem::path folder_;  // made only once there is a device
   FolderLock lock_;
   ProgramCache cache_;
@@ -90,12 +100,12 @@ class BenchRun {
   std::vector<Record> records_;
 };
 
-/// One of the tables that `bench` knows.
+/// One table: what it says of itself, and how `bench` measures and prints it.
 struct BenchTable {
-  std::string name;
-  std::vector<std::string> scenes, views;  // what --scene and --view may name
-  void (*measure)(BenchRun& run);
-  std::string (*text)(const BenchRun& run);  // at most kTableColumnsLimit columns
+  TableSpec spec;
+  std::vector<std::string> scenes{}, views{};          // what --scene and --view may name
+  void (*measure)(BenchRun& run) = nullptr;            // null: a command of its own measures it
+  std::string (*text)(const BenchRun& run) = nullptr;  // at most kTableColumnsLimit columns
 };
 
 /// Names among `known` that `chosen` names, in the order of `known`; all if `chosen` is empty.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "host/core/error.h"
 
@@ -87,6 +88,30 @@ double changeError(const Image& before, const Image& after, const Image& referen
     return difference;
   };
   return 2 * colourError(change(before, after), change(reference_before, reference_after));
+}
+
+std::size_t badValueCount(const Image& image) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(image.pixels, [](float v) { return !(std::isfinite(v) && v >= 0); }));
+}
+
+bool isSane(const Image& image) {
+  return badValueCount(image) == 0;
+}
+
+Image coveredPixels(const Image& image, const Image& coverage) {
+  std::vector<float> values;
+  const auto channels = static_cast<std::size_t>(image.channels);
+  for (std::size_t i = 0; i < coverage.pixels.size() / 4; ++i)
+    for (std::size_t c = 0; coverage.pixels[4 * i + 3] > 0 && c < 3; ++c)
+      values.push_back(image.pixels[channels * i + c]);
+  Image row(static_cast<int>(values.size() / 3), 1, 3);
+  row.pixels = std::move(values);
+  return row;
+}
+
+Image coveredPixels(const Image& image) {
+  return coveredPixels(image, image);
 }
 
 }  // namespace glintmark

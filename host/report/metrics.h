@@ -1,5 +1,7 @@
-// Error metrics, defined once for the whole project.
+// Error metrics and what they are taken over, defined once for the whole project.
 #pragma once
+#include <cstddef>
+
 #include "host/core/image.h"
 
 namespace glintmark {
@@ -25,5 +27,14 @@ double colourError(const Image& image, const Image& reference);
 /// change, as a colour error of the changes. All images hold display values.
 double changeError(const Image& before, const Image& after, const Image& reference_before,
                    const Image& reference_after);
+
+/// Values that are negative or not finite, which no radiance may be.
+std::size_t badValueCount(const Image& image);
+bool isSane(const Image& image);
+
+/// The RGB channels of `image` where `coverage` covers (alpha above 0), in one row; sizes equal.
+Image coveredPixels(const Image& image, const Image& coverage);
+/// The same of an image that says itself where it covers.
+Image coveredPixels(const Image& image);
 
 }  // namespace glintmark

@@ -6,12 +6,13 @@
 #include <string>
 
 #include "host/core/atomic_file.h"
+#include "host/experiment/all_tables.h"
 #include "host/report/page/html_report.h"
 #include "host/report/picture/heatmap.h"
 #include "host/report/picture/image_io.h"
 #include "host/report/picture/picture_strip.h"
 #include "tests/browser/chromium.h"
-#include "tests/report/sample_run.h"
+#include "tests/experiment/sample_run.h"
 
 namespace glintmark {
 namespace {
@@ -24,7 +25,7 @@ class Page : public testing::Test {
     if (findChromium().empty())
       GTEST_SKIP() << "chromium is not in PATH (Debian package chromium): the page is not tested";
     writePictures();
-    html_ = htmlReport(sample_.results(), pictures_, "results.json");
+    html_ = htmlReport(sample_.results(), allTableSpecs(), pictures_, "results.json");
     page_ = folder_ / "page.html";
     writeFile(page_, html_);
   }

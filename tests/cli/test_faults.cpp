@@ -11,7 +11,7 @@
 #include "host/core/atomic_file.h"
 #include "host/report/record/records.h"
 #include "tests/cli/process.h"
-#include "tests/report/sample_run.h"
+#include "tests/experiment/sample_run.h"
 
 namespace glintmark {
 namespace {

@@ -2,6 +2,7 @@
 // table's defaults, and to no others.
 #include <gtest/gtest.h>
 
+#include "host/core/error.h"
 #include "host/frame/effects.h"
 #include "host/ocl/switches.h"
 #include "tests/frame/frame_test.h"
@@ -9,8 +10,12 @@
 namespace glintmark {
 namespace {
 
-constexpr const char* kKnobs[] = {
-#define KNOB_ELSE(macro, ...) #macro,
+struct Knob {
+  const char* macro;
+  bool KernelConfig::*effect;
+};
+const Knob kKnobs[] = {
+#define KNOB_ELSE(macro, type, member, standard, without, values, effect, ...) {#macro, effect},
 #include "host/ocl/switches.inc"
 };
 
@@ -22,25 +27,26 @@ int anotherValue(const Switch& row) {
 // The knobs as a program with every effect has them.
 KernelConfig everyEffect(const ShadingOptions& options) {
   KernelConfig config;
-  config.glint = config.normal_map = config.ltc = true;
-  for (bool KernelConfig::*effect :
-       {kEveryProgram, &KernelConfig::glint, &KernelConfig::normal_map, &KernelConfig::ltc})
-    setKnobs(options, effect, config);
+  for (const Knob& knob : kKnobs) {
+    if (knob.effect != kEveryProgram) config.*knob.effect = true;
+    setKnobs(options, knob.effect, config);
+  }
   return config;
 }
 
 TEST(Knobs, ReachProgramsWithTheirEffect) {
-  for (const char* macro : kKnobs) {
-    const Switch& row = switchNamed(macro);
+  for (const Knob& knob : kKnobs) {
+    const Switch& row = switchNamed(knob.macro);
     ShadingOptions options;
-    EXPECT_EQ(row.of(everyEffect(options)), row.standard) << macro;
-    turnKnob(options, macro, anotherValue(row));
+    EXPECT_EQ(row.of(everyEffect(options)), row.standard) << knob.macro;
+    turnKnob(options, knob.macro, anotherValue(row));
     const KernelConfig turned = everyEffect(options);
-    EXPECT_EQ(row.of(turned), anotherValue(row)) << macro;
-    for (const Switch& other : allSwitches())
-      if (other.macro != row.macro)
-        EXPECT_EQ(other.of(turned), other.of(everyEffect({})))
-            << macro << " turned " << other.macro;
+    EXPECT_EQ(row.of(turned), anotherValue(row)) << knob.macro;
+    for (const Switch& other : allSwitches()) {
+      if (other.macro == row.macro) continue;
+      EXPECT_EQ(other.of(turned), other.of(everyEffect({})))
+          << knob.macro << " turned " << other.macro;
+    }
   }
 }
 
@@ -49,14 +55,17 @@ TEST(Knobs, LeaveProgramsWithoutTheirEffectAlone) {
   smooth.materials[0].has_glints = false;
   ASSERT_TRUE(smooth.area_lights.empty() && !smooth.materials[0].normal_map);
   const auto program = [&](const ShadingOptions& options) {
-    return buildOptions(configFor(smooth.materials[0], smooth, options, 4));
+    return configFor(smooth.materials[0], smooth, options, 4);
   };
-  for (const char* macro : kKnobs) {
+  std::size_t left_alone = 0;
+  for (const Knob& knob : kKnobs) {
     ShadingOptions options;
-    turnKnob(options, macro, anotherValue(switchNamed(macro)));
-    const bool of_every_program = std::string_view(macro) == "MATHS";
-    EXPECT_EQ(program(options) != program({}), of_every_program) << macro;
+    turnKnob(options, knob.macro, anotherValue(switchNamed(knob.macro)));
+    const bool concerned = knob.effect == kEveryProgram || program({}).*knob.effect;
+    EXPECT_EQ(buildOptions(program(options)) != buildOptions(program({})), concerned) << knob.macro;
+    left_alone += concerned ? 0 : 1;
   }
+  EXPECT_GE(left_alone, 12u);  // of glints, normal maps and area lights
 }
 
 TEST(Knobs, WrongOnesAreErrors) {

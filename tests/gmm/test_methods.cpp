@@ -74,10 +74,6 @@ double relativeDifference(const Image& image, const Image& reference) {
   return sum / total;
 }
 
-bool isSane(const Image& image) {
-  return std::ranges::all_of(image.pixels, [](float v) { return std::isfinite(v) && v >= 0; });
-}
-
 class Methods : public testing::TestWithParam<NormalMethod> {};
 
 TEST_P(Methods, OneLaneAndSixteenGiveTheSameBits) {

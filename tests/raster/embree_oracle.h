@@ -1,12 +1,11 @@
 // Embree as the judge of visibility: which triangle does a pixel's ray hit first?
 #pragma once
-#include <embree3/rtcore.h>
-
 #include <cstdint>
 #include <stdexcept>
 #include <vector>
 
 #include "host/raster/rasterizer.h"
+#include "tests/embree.h"
 #include "tests/raster/ray_differentials.h"
 
 namespace glintmark::test {
@@ -58,9 +57,7 @@ class EmbreeOracle {
     hit.ray.tfar = INFINITY;
     hit.ray.mask = ~0u;
     hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcIntersect1(scene_, &context, &hit);
+    intersect(scene_, hit);
     return hit.hit.geomID == RTC_INVALID_GEOMETRY_ID ? kNoTriangle : hit.hit.primID;
   }
 

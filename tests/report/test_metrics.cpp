@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "host/core/error.h"
 
@@ -56,6 +57,25 @@ TEST(Metrics, BadInputsAreErrors) {
   EXPECT_THROW(relMse(Image(), Image()), Error);
   EXPECT_THROW(relMse(rgb({std::nanf(""), 1, 1}), rgb({1, 1, 1})), Error);
   EXPECT_THROW(relativeBias(rgb({1, 1, 1}), rgb({1, std::nanf(""), 1})), Error);
+}
+
+TEST(Metrics, BadValuesAreNegativeOrNotFinite) {
+  EXPECT_TRUE(isSane(rgb({0, 1, 1e30f})));
+  const Image bad = rgb({-1e-30f, std::nanf(""), std::numeric_limits<float>::infinity()});
+  EXPECT_EQ(badValueCount(bad), 3u);
+  EXPECT_FALSE(isSane(bad));
+}
+
+TEST(Metrics, CoveredPixelsOfAnImageAndOfAnother) {
+  Image image(3, 1, 4), errors(3, 1, 3);
+  image.pixels = {1, 2, 3, 1, 4, 5, 6, 0, 7, 8, 9, 1};
+  errors.pixels = {0.1f, 0.2f, 0.3f, 0.4f, 0.5f, 0.6f, 0.7f, 0.8f, 0.9f};
+  const Image row = coveredPixels(image);
+  EXPECT_EQ(row.width, 2);
+  EXPECT_EQ(row.height, 1);
+  EXPECT_EQ(row.pixels, (std::vector<float>{1, 2, 3, 7, 8, 9}));
+  EXPECT_EQ(coveredPixels(errors, image).pixels,
+            (std::vector<float>{0.1f, 0.2f, 0.3f, 0.7f, 0.8f, 0.9f}));
 }
 
 }  // namespace

@@ -1,11 +1,10 @@
 // The cameras of [ZK16] Table 1: `steep` looks straight onto the surface, `grazing` along it. What
 // they see is asked of Embree.
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <cmath>
 #include <memory>
 
+#include "tests/embree.h"
 #include "tests/scene/scene_test_tools.h"
 
 namespace glintmark {
@@ -86,9 +85,7 @@ class Tracer {
     query.ray.tfar = 1e30f;
     query.ray.mask = 0xFFFFFFFFu;
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcIntersect1(tree_, &context, &query);
+    test::intersect(tree_, query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return;
     const glm::dvec3 normal =
         glm::normalize(glm::dvec3(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z));

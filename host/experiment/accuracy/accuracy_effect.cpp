@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include "host/core/error.h"
-#include "host/report/accuracy_table.h"
+#include "host/experiment/accuracy/accuracy_table.h"
+#include "host/report/record/case_name.h"
 
 namespace glintmark {
 namespace {
@@ -25,9 +26,14 @@ std::optional<double> geometricMeanOf(std::span<const AccuracyFigures> figures,
 }  // namespace
 
 std::string knobOf(const std::string& setting) {
-  const std::size_t slash = setting.find('/');
-  const std::size_t begin = slash == std::string::npos ? 0 : slash + 1;
-  return setting.substr(begin, setting.find('=', begin) - begin);
+  const CaseName name = CaseName::parse(setting);
+  return name.knobs.empty() ? name.text() : name.knobs.front().name;
+}
+
+std::string accuracyCase(const std::string& effect, const std::string& setting) {
+  CaseName name = CaseName::parse(setting);
+  name.words.insert(name.words.begin(), effect);
+  return name.text();
 }
 
 AccuracyFigures meanFigures(std::span<const AccuracyFigures> figures) {
@@ -50,29 +56,29 @@ std::vector<Record> accuracyRecords(const BenchRun& run, const std::string& case
                                     const std::string& role, const AccuracyFigures& figures,
                                     const AccuracyTimes& times, const AccuracyNotes& notes) {
   std::vector<Record> records;
-  const auto add = [&](const char* metric, const char* unit, const std::vector<double>& samples,
+  const auto add = [&](const char* metric, const std::vector<double>& samples,
                        const std::string& note) {
-    records.push_back(run.record(kAccuracyTable, case_name, metric, unit, samples, note));
+    records.push_back(run.record(accuracySpec(), case_name, metric, samples, note));
     records.back().config["role"] = role;
     if (figures.failure.empty()) return;
     records.back().valid = false;
     records.back().note = "not valid: " + figures.failure;
   };
-  add("error", "1", {figures.error}, notes.error);
-  add("truth_stderr", "1", {figures.truth_stderr}, "of the truth, in the metric of the error");
-  add("time_ratio", "1", times.ratio, notes.time);
-  add("time_ms", "ms", times.ms, notes.time);
+  add("error", {figures.error}, notes.error);
+  add("truth_stderr", {figures.truth_stderr}, "of the truth, in the metric of the error");
+  add("time_ratio", times.ratio, notes.time);
+  add("time_ms", times.ms, notes.time);
   if (!times.fit_ratio.empty())
-    add("fit_ratio", "1", times.fit_ratio,
+    add("fit_ratio", times.fit_ratio,
         "what is fitted before the first frame, over the default's, in turn");
-  add("bias", "1", {figures.bias}, "of the mean radiance");
-  add("rel_mse", "1", {figures.rel_mse}, "");
-  add("colour_error", "1", {figures.colour_error}, "of display colours");
+  add("bias", {figures.bias}, "of the mean radiance");
+  add("rel_mse", {figures.rel_mse}, "");
+  add("colour_error", {figures.colour_error}, "of display colours");
   if (figures.distribution_distance)
-    add("distribution_distance", "1", {*figures.distribution_distance},
+    add("distribution_distance", {*figures.distribution_distance},
         "Wasserstein distance of pixel luminances over their mean");
   if (figures.frame_to_frame_error)
-    add("frame_to_frame_error", "1", {*figures.frame_to_frame_error},
+    add("frame_to_frame_error", {*figures.frame_to_frame_error},
         "error of the change from frame to frame at a quarter of a pixel, in display colours");
   return records;
 }

@@ -11,8 +11,6 @@
 
 namespace glintmark {
 
-inline constexpr const char* kAccuracyTable = "accuracy";
-
 /// How wrong one setting is in one scene. `error` is the effect's principal metric, truth_stderr
 /// what the truth itself may be off, in the same metric; results/README.md has the others.
 struct AccuracyFigures {
@@ -54,6 +52,8 @@ class AccuracyEffect {
 
 /// The knob of a setting or case: "ka" of "ka=16" and of "glints/ka=16".
 std::string knobOf(const std::string& setting);
+/// "glints/ka=16" of effect "glints" and setting "ka=16".
+std::string accuracyCase(const std::string& effect, const std::string& setting);
 
 struct AccuracyKind {
   std::string name;

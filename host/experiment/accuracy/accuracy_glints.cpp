@@ -10,15 +10,15 @@
 #include <cmath>
 
 #include "host/experiment/accuracy/accuracy_sweep.h"
+#include "host/experiment/accuracy/accuracy_table.h"
 #include "host/experiment/accuracy/knob_settings.h"
-#include "host/experiment/tao21/tao21_view.h"
 #include "host/experiment/zk16/zk16_case.h"
 #include "host/experiment/zk16/zk16_table.h"
 #include "host/ocl/switches.h"
-#include "host/report/accuracy_table.h"
 #include "host/report/distribution.h"
 #include "host/report/metrics.h"
 #include "host/report/picture/tonemap.h"
+#include "host/report/record/case_name.h"
 
 namespace glintmark {
 namespace {
@@ -198,7 +198,7 @@ std::vector<std::string> knownScenes() {
   std::vector<std::string> scenes;
   for (const Zk16PaperRow& row : kZk16Table1)
     for (const std::string_view view : kZk16Views)
-      scenes.push_back(fmt::format("{}/{}", row.scene, view));
+      scenes.push_back(CaseName{{std::string(row.scene), std::string(view)}}.text());
   return scenes;
 }
 

@@ -4,12 +4,12 @@
 #include <algorithm>
 
 #include "host/core/error.h"
+#include "host/experiment/accuracy/accuracy_table.h"
 #include "host/experiment/accuracy/accuracy_truth.h"
 #include "host/experiment/accuracy/knob_settings.h"
 #include "host/frame/effect/normal_maps.h"
 #include "host/mixture/normal_mixture.h"
 #include "host/ocl/switches.h"
-#include "host/report/accuracy_table.h"
 
 namespace glintmark {
 namespace {
@@ -65,7 +65,7 @@ class GmmSweep : public SampledSweep {
     if (knob != "lobes" && knob != "alignment" && knob != "fit_iterations") return {};
     const NormalMapSource& source = normalMapOf(stage.scene());
     ShadingOptions options = stage.options();
-    const int threads = stage.run().session().common.threads;
+    const int threads = stage.run().threads();
     const auto fit = [&] {
       const int lobes = options.lobes > 0 ? options.lobes : source.lobes;
       MixtureOptions fit_options =

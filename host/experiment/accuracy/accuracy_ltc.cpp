@@ -3,10 +3,10 @@
 
 #include "host/core/disk_cache.h"
 #include "host/core/error.h"
+#include "host/experiment/accuracy/accuracy_table.h"
 #include "host/experiment/accuracy/accuracy_truth.h"
 #include "host/experiment/accuracy/knob_settings.h"
 #include "host/fit/ltc_fit.h"
-#include "host/report/accuracy_table.h"
 
 namespace glintmark {
 namespace {
@@ -63,7 +63,7 @@ AccuracyKind ltcAccuracy() {
           {"area_plane/front", "area_knot/middle"},
           [](BenchRun& run, const std::vector<std::string>& scenes) {
             return std::unique_ptr<AccuracyEffect>(std::make_unique<SampledSweep>(
-                run, "ltc", scenes, settings(run.session().common.threads), kTruth));
+                run, "ltc", scenes, settings(run.threads()), kTruth));
           }};
 }
 

@@ -10,11 +10,12 @@
 #include "host/core/error.h"
 #include "host/core/stopwatch.h"
 #include "host/experiment/accuracy/accuracy_sweep.h"
+#include "host/experiment/accuracy/accuracy_table.h"
+#include "host/experiment/frame_timing.h"
 #include "host/experiment/msbrdf/msbrdf_cases.h"
-#include "host/experiment/tao21/tao21_view.h"
 #include "host/fit/lobe_fit.h"
-#include "host/report/accuracy_table.h"
 #include "host/report/metrics.h"
+#include "host/report/record/case_name.h"
 
 namespace glintmark {
 namespace {
@@ -45,6 +46,14 @@ constexpr RayCount kRayCounts[] = {{"1e5", 100'000},
                                    {"1e7", 10'000'000},
                                    {"1e8", 100'000'000},
                                    {"5e8", 500'000'000}};
+
+std::string modelCase(const Model& model) {
+  return CaseName{{"msbrdf"}, {{"model", model.name}}}.text();
+}
+
+std::string raysCase(const RayCount& count) {
+  return CaseName{{"msbrdf"}, {{"rays", count.name}}}.text();
+}
 
 constexpr int kCells = LobeData::kCosines * LobeData::kAzimuths;
 
@@ -138,10 +147,9 @@ std::string MsbrdfSweep::errorNote() const {
 
 std::vector<std::string> MsbrdfSweep::cases() const {
   std::vector<std::string> cases;
-  for (const Model& model : kModels) cases.push_back(fmt::format("msbrdf/model={}", model.name));
+  for (const Model& model : kModels) cases.push_back(modelCase(model));
   for (const RayCount& count : kRayCounts)
-    if (count.rays <= run_.options().rays)
-      cases.push_back(fmt::format("msbrdf/rays={}", count.name));
+    if (count.rays <= run_.options().rays) cases.push_back(raysCase(count));
   return cases;
 }
 
@@ -204,21 +212,13 @@ AccuracyFigures MsbrdfSweep::figures(const Truth& truth, const Image& lobe) cons
 const Scene& MsbrdfSweep::sceneOf(DiffuseModel model) {
   const auto found = scenes_.find(model);
   if (found != scenes_.end()) return found->second;
-  Scene scene = openScene(run_.session().common, scene_.substr(0, scene_.find('/')));
+  Scene scene = openScene(run_.session().common, CaseName::parse(scene_).word(0));
   for (Material& material : scene.materials) material.diffuse_model = model;
   return scenes_.emplace(model, std::move(scene)).first->second;
 }
 
 std::unique_ptr<FrameRenderer> MsbrdfSweep::frame(const Scene& scene) const {
-  const ImageSize size = parseSize(run_.options().size);
-  auto renderer = std::make_unique<FrameRenderer>(
-      run_.device(), scene, scene.view(scene_.substr(scene_.find('/') + 1)),
-      ShadingOptions{
-          .width_px = size.width_px, .height_px = size.height_px, .lanes = run_.info().width},
-      run_.session().common.threads);
-  renderer->prepare();
-  renderer->shade();
-  return renderer;
+  return preparedFrame(run_, scene, scene.view(CaseName::parse(scene_).word(1)), run_.shading());
 }
 
 std::vector<Record> MsbrdfSweep::measureModel(const std::string& case_name, const Model& model) {
@@ -259,11 +259,9 @@ std::vector<Record> MsbrdfSweep::measureRays(const std::string& case_name, std::
 
 std::vector<Record> MsbrdfSweep::measure(const std::string& case_name) {
   for (const Model& model : kModels)
-    if (case_name == fmt::format("msbrdf/model={}", model.name))
-      return measureModel(case_name, model);
+    if (case_name == modelCase(model)) return measureModel(case_name, model);
   for (const RayCount& count : kRayCounts)
-    if (case_name == fmt::format("msbrdf/rays={}", count.name))
-      return measureRays(case_name, count.rays);
+    if (case_name == raysCase(count)) return measureRays(case_name, count.rays);
   throw Error(fmt::format("no case {}", case_name));
 }
 

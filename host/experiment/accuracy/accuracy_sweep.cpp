@@ -6,16 +6,12 @@
 #include <cmath>
 
 #include "host/core/error.h"
-#include "host/experiment/tao21/tao21_view.h"
-#include "host/report/accuracy_table.h"
+#include "host/experiment/accuracy/accuracy_table.h"
+#include "host/experiment/frame_timing.h"
+#include "host/report/record/case_name.h"
 
 namespace glintmark {
 namespace {
-
-constexpr double kMsPerNs = 1e-6;
-// Frames are timed again until they have taken this long; sampled ones at most --reps times.
-constexpr double kLeastTime_ms = 600;
-constexpr int kMostRounds = 101;
 
 // Geometric means over stages, repetition by repetition, as many as each has.
 AccuracyTimes meanTimes(const std::vector<AccuracyTimes>& stages) {
@@ -37,17 +33,10 @@ AccuracyTimes meanTimes(const std::vector<AccuracyTimes>& stages) {
 }  // namespace
 
 AccuracyTimes timesInTurn(FrameRenderer& standard, FrameRenderer& setting, int reps) {
-  // Short frames are repeated, so that no passing disturbance lasts through half of them.
-  const double pair_ms = shadeMs(standard) + shadeMs(setting);
-  const int rounds =
-      std::max(reps, static_cast<int>(std::min<double>(kMostRounds, kLeastTime_ms / pair_ms)));
-  AccuracyTimes times;
-  for (int round = 0; round < rounds; ++round) {
-    const double standard_ms = shadeMs(standard);
-    times.ms.push_back(shadeMs(setting));
-    times.ratio.push_back(times.ms.back() / standard_ms);
-  }
-  return times;
+  const int rounds = lastingReps(standard, setting, reps);
+  TurnTimes times = shadeInTurn(standard, setting, rounds);
+  std::swap(times.first_ms, times.second_ms);
+  return {times.ratios(), times.first_ms, {}};
 }
 
 std::vector<std::string> knobsOf(const std::vector<AccuracySetting>& settings) {
@@ -61,31 +50,23 @@ std::vector<std::string> knobsOf(const std::vector<AccuracySetting>& settings) {
 AccuracyStage::AccuracyStage(BenchRun& run, const std::string& name)
     : run_(run),
       name_(name),
-      scene_(openScene(run.session().common, name.substr(0, name.find('/')))),
-      view_(scene_.view(name.substr(name.find('/') + 1))),
+      scene_(openScene(run.session().common, CaseName::parse(name).word(0))),
+      view_(scene_.view(CaseName::parse(name).word(1))),
       textures_(std::make_shared<NormalTextures>(run.device())) {}
 
 ShadingOptions AccuracyStage::options() const {
-  const ImageSize size = parseSize(run_.options().size);
-  return {.width_px = size.width_px, .height_px = size.height_px, .lanes = run_.info().width};
+  return run_.shading();
 }
 
 std::unique_ptr<TruthRenderer> AccuracyStage::sampler(const ShadingOptions& options) const {
-  auto sampled = std::make_unique<TruthRenderer>(run_.device(), scene_, view_, options,
-                                                 run_.session().common.threads, textures_);
-  sampled->prepare();
-  return sampled;
+  return std::make_unique<TruthRenderer>(run_.device(), scene_, view_, options, run_.threads(),
+                                         textures_);
 }
 
 std::unique_ptr<FrameRenderer> AccuracyStage::renderer(const ShadingOptions& options,
                                                        const View* view, const Scene* scene) const {
-  stopIfInterrupted();
-  auto renderer = std::make_unique<FrameRenderer>(run_.device(), scene == nullptr ? scene_ : *scene,
-                                                  view == nullptr ? view_ : *view, options,
-                                                  run_.session().common.threads, textures_);
-  renderer->prepare();
-  renderer->shade();
-  return renderer;
+  return preparedFrame(run_, scene == nullptr ? scene_ : *scene, view == nullptr ? view_ : *view,
+                       options, textures_);
 }
 
 AccuracySweep::AccuracySweep(BenchRun& run, std::string effect,
@@ -99,7 +80,8 @@ AccuracySweep::AccuracySweep(BenchRun& run, std::string effect,
 
 std::vector<std::string> AccuracySweep::cases() const {
   std::vector<std::string> cases;
-  for (const AccuracySetting& setting : settings_) cases.push_back(effect_ + "/" + setting.name);
+  for (const AccuracySetting& setting : settings_)
+    cases.push_back(accuracyCase(effect_, setting.name));
   return cases;
 }
 
@@ -132,6 +114,7 @@ AccuracyTimes AccuracySweep::measureSampledTimes(const AccuracySetting& setting)
   const auto samples = static_cast<std::uint32_t>(setting.samples);
   for (std::size_t i = 0; i < times.size(); ++i) {
     const auto sampled = stages_[i].sampler(stages_[i].options());
+    sampled->prepare();
     sampled->addSamples(0, 1);  // compiles
     double spent_ms = 0;
     for (int rep = 0; rep < run_.options().reps && (rep == 0 || spent_ms < kLeastTime_ms); ++rep) {
@@ -157,8 +140,9 @@ AccuracySweep::Measured AccuracySweep::measureSetting(const AccuracySetting& set
 }
 
 std::vector<Record> AccuracySweep::measure(const std::string& case_name) {
-  const auto setting = std::ranges::find_if(
-      settings_, [&](const AccuracySetting& one) { return effect_ + "/" + one.name == case_name; });
+  const auto setting = std::ranges::find_if(settings_, [&](const AccuracySetting& one) {
+    return accuracyCase(effect_, one.name) == case_name;
+  });
   if (setting == settings_.end()) throw Error(fmt::format("no case {}", case_name));
   const bool is_default = setting->role == kAccuracyDefault;
   if (is_default && !default_) default_ = measureSetting(*setting);

@@ -44,7 +44,7 @@ class AccuracyStage {
   /// must live as long as the renderer.
   std::unique_ptr<FrameRenderer> renderer(const ShadingOptions& options, const View* view = nullptr,
                                           const Scene* scene = nullptr) const;
-  /// Prepared to sample the ground truth at the size of `options`.
+  /// Of the ground truth at the size of `options`, before prepare().
   std::unique_ptr<TruthRenderer> sampler(const ShadingOptions& options) const;
   const std::shared_ptr<NormalTextures>& textures() const { return textures_; }
 

@@ -5,21 +5,12 @@
 
 #include <algorithm>
 
-#include "host/experiment/tao21/tao21_view.h"
-#include "host/frame/ground_truth.h"
+#include "host/experiment/frame_truth.h"
 #include "host/report/metrics.h"
 #include "host/report/picture/tonemap.h"
 
 namespace glintmark {
 namespace {
-
-ImageSize truthSize(const BenchRun& run, const SampledTruthSettings& settings) {
-  const ImageSize full = parseSize(run.options().size);
-  ImageSize size;
-  size.width_px = std::min(full.width_px, settings.width_px);
-  size.height_px = std::max(1, full.height_px * size.width_px / full.width_px);
-  return size;
-}
 
 double principal(PrincipalMetric metric, const Image& row, const Image& truth, double exposure) {
   if (metric == PrincipalMetric::kRelMse) return relMse(row, truth);
@@ -30,7 +21,7 @@ double principal(PrincipalMetric metric, const Image& row, const Image& truth, d
 
 std::string sampledTruthNote(const BenchRun& run, const SampledTruthSettings& settings,
                              const std::vector<std::string>& scenes) {
-  const ImageSize size = truthSize(run, settings);
+  const ImageSize size = truthSize(run, settings.width_px);
   return fmt::format("error: {} at {}x{} against {} samples a pixel, geometric mean over {}",
                      settings.metric == PrincipalMetric::kRelMse ? "relMSE" : "colour error",
                      size.width_px, size.height_px, settings.spp, fmt::join(scenes, ", "));
@@ -45,7 +36,7 @@ SampledSweep::SampledSweep(BenchRun& run, const std::string& effect,
       settings_(truth) {}
 
 ShadingOptions SampledSweep::truthOptions(const AccuracyStage& stage) const {
-  const ImageSize size = truthSize(stage.run(), settings_);
+  const ImageSize size = truthSize(stage.run(), settings_.width_px);
   ShadingOptions options = stage.options();
   options.width_px = size.width_px;
   options.height_px = size.height_px;
@@ -55,13 +46,9 @@ ShadingOptions SampledSweep::truthOptions(const AccuracyStage& stage) const {
 const SampledSweep::Truth& SampledSweep::truth(std::size_t index, const AccuracyStage& stage) {
   const auto found = truths_.find(index);
   if (found != truths_.end()) return found->second;
-  const TruthImages images = renderTruth(
-      stage.run().device(), stage.scene(), stage.view(), truthOptions(stage), settings_.spp,
-      [](int) { stopIfInterrupted(); }, stage.run().session().common.threads, stage.textures());
-  Image off = images.mean;
-  for (std::size_t i = 0; i < off.pixels.size() / 4; ++i)
-    for (std::size_t c = 0; c < 3; ++c)
-      off.pixels[4 * i + c] += images.standard_error.pixels[3 * i + c];
+  const TruthImages images = truthOf(stage.run(), stage.scene(), stage.view(), truthOptions(stage),
+                                     settings_.spp, stage.textures());
+  const Image off = oneErrorOff(images);
   Truth made;
   made.row = coveredPixels(images.mean);
   made.sane = isSane(images.mean) && isSane(off) && !made.row.pixels.empty();
@@ -77,11 +64,8 @@ Image SampledSweep::image(const AccuracyStage& stage, const AccuracySetting& set
     if (setting.apply) setting.apply(options);
     return stage.renderer(options)->readRadiance();
   }
-  const auto sampled = stage.sampler(options);
-  const auto samples = static_cast<std::uint32_t>(setting.samples);
   // Samples that the truth has not used.
-  sampled->addSamples(static_cast<std::uint32_t>(settings_.spp), samples);
-  return sampled->readMean(samples);
+  return sampleFrame(*stage.sampler(options), settings_.spp, setting.samples).mean;
 }
 
 AccuracyFigures SampledSweep::figures(std::size_t index, const AccuracyStage& stage,

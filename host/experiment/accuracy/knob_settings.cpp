@@ -6,7 +6,7 @@
 
 #include "host/core/error.h"
 #include "host/ocl/switches.h"
-#include "host/report/accuracy_table.h"
+#include "host/experiment/accuracy/accuracy_table.h"
 
 namespace glintmark {
 namespace {

@@ -7,15 +7,14 @@
 
 #include "host/experiment/effects/effects_case.h"
 #include "host/experiment/effects/effects_table.h"
+#include "host/experiment/summary_table.h"
 #include "host/report/picture/image_io.h"
 
 namespace glintmark {
 namespace {
 
-constexpr const char* kTable = "effects";
 constexpr const char* kScene = "mixed";
 constexpr const char* kView = "whole";
-constexpr const char* kAll = "all";
 
 // A named set of effects.
 struct Case {
@@ -43,7 +42,7 @@ std::vector<Case> casesOf(EffectSet called_for) {
     for (std::size_t j = i + 1; j < effects.size(); ++j)
       add(withNeeds(effects[i]) | withNeeds(effects[j]));
   std::erase_if(cases, [&](const Case& known) { return known.set == called_for; });
-  cases.push_back({kAll, called_for});
+  cases.push_back({kAllCase, called_for});
   return cases;
 }
 
@@ -57,14 +56,15 @@ void measure(BenchRun& run) {
     sets[known.name] = known.set;
   }
   EffectsMeasurer measurer(run, std::move(scene), kView);
-  run.measureCases(kTable, names, effectsMetrics(),
+  run.measureCases(effectsSpec().name, names, effectsMetrics(),
                    [&](const std::string& name) { return measurer.measure(name, sets.at(name)); });
-  writePng(effectsMatrixPicture(run.recordsOf(kTable)), run.folder() / "effects_matrix.png");
+  writePng(effectsMatrixPicture(run.recordsOf(effectsSpec().name)),
+           run.folder() / "effects_matrix.png");
 }
 
 std::string text(const BenchRun& run) {
   const RunInfo& info = run.info();
-  const std::vector<Record> records = run.recordsOf(kTable);
+  const std::vector<Record> records = run.recordsOf(effectsSpec().name);
   return fmt::format("Effects of scene {}, view {}, at {}, {} lanes, on {:.50}\n\n", kScene, kView,
                      run.options().size, info.width, info.device) +
          effectsTableText(records) + invalidText(records);
@@ -73,7 +73,7 @@ std::string text(const BenchRun& run) {
 }  // namespace
 
 BenchTable effectsBench() {
-  return {kTable, {kScene}, {kView}, measure, text};
+  return {effectsSpec(), {kScene}, {kView}, measure, text};
 }
 
 }  // namespace glintmark

@@ -6,19 +6,18 @@
 #include <cmath>
 #include <functional>
 
+#include "host/experiment/effects/effects_table.h"
+#include "host/experiment/frame_timing.h"
 #include "host/report/metrics.h"
+#include "host/report/record/case_name.h"
 
 namespace glintmark {
 namespace {
 
-constexpr const char* kTable = "effects";
-constexpr double kMsPerNs = 1e-6;
 // Materials of fewer pixels than this share of the frame are too short to time.
 constexpr double kTimedShare = 0.02;
 // The mixed frame against the sum of its effects, the bound of the record.
 constexpr double kWantedMixedOverSum = 1.1;
-
-using Samples = std::vector<double>;
 
 // Event times of a frame over the repetitions, whole and by launch [ns].
 struct FrameSamples {
@@ -51,17 +50,6 @@ Samples sumAlone(const Samples& base, const std::vector<const Samples*>& with,
   for (std::size_t i = 0; i < sum.size(); ++i)
     for (std::size_t e = 0; e < with.size(); ++e) sum[i] += (*with[e])[i] - (*without[e])[i];
   return sum;
-}
-
-bool isSound(const Image& image) {
-  return std::ranges::all_of(image.pixels, [](float v) { return std::isfinite(v) && v >= 0; });
-}
-
-std::string kernelOptions(const FrameRenderer& renderer) {
-  std::string text;
-  for (const KernelConfig& config : renderer.configs())
-    text += (text.empty() ? "" : " | ") + buildOptions(config);
-  return text;
 }
 
 }  // namespace
@@ -120,26 +108,19 @@ EffectsMeasurer::EffectsMeasurer(BenchRun& run, Scene scene, std::string view_na
 // Under area lights the cone lights, too, read mean normals. What a normal map costs alone is then
 // measured in the same way.
 ShadingOptions EffectsMeasurer::optionsFor(EffectSet kept, EffectSet measured_in) const {
-  const ImageSize size = parseSize(run_.options().size);
-  ShadingOptions options{
-      .width_px = size.width_px, .height_px = size.height_px, .lanes = run_.info().width};
-  options.method = parseMethod(run_.options().method);
+  ShadingOptions options = run_.shading();
+  options.method = run_.method();
   if (measured_in.has(Effect::kLtc)) options.normal_method = NormalMethod::kToksvig;
   return withEffects(options, kept);
 }
 
 std::unique_ptr<EffectFrame> EffectsMeasurer::makeFrame(EffectSet kept, EffectSet measured_in,
                                                         Programs programs) {
-  stopIfInterrupted();
   auto frame = std::make_unique<EffectFrame>();
   frame->scene = withEffects(scene_, kept);
   ShadingOptions options = optionsFor(kept, measured_in);
   options.programs = programs;
-  frame->renderer =
-      std::make_unique<FrameRenderer>(run_.device(), frame->scene, frame->scene.view(view_name_),
-                                      options, run_.session().common.threads);
-  frame->renderer->prepare();
-  frame->renderer->shade();
+  frame->renderer = preparedFrame(run_, frame->scene, frame->scene.view(view_name_), options);
   return frame;
 }
 
@@ -227,10 +208,9 @@ class EffectsMeasurer::CaseMaker {
     checkImages();
   }
 
-  void add(const std::string& metric, const std::string& unit, const Samples& samples,
-           const std::string& note = "") {
-    Record record = measurer_.run_.record(kTable, case_name_, metric, unit, samples, note);
-    record.config["scene"] = measurer_.scene_.name + "/" + measurer_.view_name_;
+  void add(const std::string& metric, const Samples& samples, const std::string& note = "") {
+    Record record = measurer_.run_.record(effectsSpec(), case_name_, metric, samples, note);
+    record.config["scene"] = CaseName{{measurer_.scene_.name, measurer_.view_name_}}.text();
     record.config["effects"] = effectSetName(set_);
     record.config["kernels"] = kernelOptions(*compared_.own->renderer);
     record.valid = failure_.empty();
@@ -246,7 +226,7 @@ class EffectsMeasurer::CaseMaker {
   // The answer: all three programs must give the same bits.
   void checkImages() {
     const Image image = compared_.own->renderer->readRadiance();
-    if (!isSound(image)) failure_ = "radiance values are negative or not finite";
+    if (!isSane(image)) failure_ = "radiance values are negative or not finite";
     for (const auto* other : {&compared_.full_screen, &compared_.lists}) {
       const Image uber = (*other)->renderer->readRadiance();
       if (failure_.empty() && uber.pixels != image.pixels)
@@ -271,30 +251,28 @@ void EffectsMeasurer::CaseMaker::addTimes(const Frames& frames) {
   const Samples& own = frames.samples[0].frame_ns;
   const Samples& lists = frames.samples[1].frame_ns;
   const Samples& full_screen = frames.samples[2].frame_ns;
-  add("shading_ms", "ms", milliseconds(own), "kernel events, specialised programs");
-  add("uber_ms", "ms", milliseconds(full_screen), "one program with every effect, full screen");
-  add("uber_over_specialised", "1", ratios(full_screen, own),
+  add("shading_ms", milliseconds(own), "kernel events, specialised programs");
+  add("uber_ms", milliseconds(full_screen), "one program with every effect, full screen");
+  add("uber_over_specialised", ratios(full_screen, own),
       "one program with every effect, full screen, over specialised programs on pixel lists");
-  add("uber_on_lists_over_specialised", "1", ratios(lists, own),
+  add("uber_on_lists_over_specialised", ratios(lists, own),
       "the same program on the pixel lists of the materials");
-  add("full_screen_over_lists", "1", ratios(full_screen, lists),
+  add("full_screen_over_lists", ratios(full_screen, lists),
       "the program with every effect: pixels as on the screen, over lists by material");
 }
 
 void EffectsMeasurer::CaseMaker::addBytes() {
   const double planes = compared_.heldBytes(BufferPurpose::kPlanes);
-  add("planes_bytes", "bytes", {planes}, "rasterized planes");
-  add("tables_bytes", "bytes",
-      {compared_.peakBytes() - planes - compared_.heldBytes(BufferPurpose::kRadiance)},
+  add("planes_bytes", {planes}, "rasterized planes");
+  add("tables_bytes", {compared_.peakBytes() - planes - compared_.heldBytes(BufferPurpose::kRadiance)},
       "all other buffers but the radiance: tables, textures, lights, parameters");
-  add("peak_bytes", "bytes", {compared_.peakBytes()},
-      "device buffers really allocated, most at once");
-  add("uber_peak_bytes", "bytes", {static_cast<double>(compared_.uber_peak_bytes)});
+  add("peak_bytes", {compared_.peakBytes()}, "device buffers really allocated, most at once");
+  add("uber_peak_bytes", {static_cast<double>(compared_.uber_peak_bytes)});
 }
 
 void EffectsMeasurer::CaseMaker::addSums(const Frames& frames) {
   if (frames.alone.empty()) return;
-  add("mixed_over_sum", "1",
+  add("mixed_over_sum",
       ratios(frames.samples[0].frame_ns,
              frames.sum([](const FrameSamples& s) -> const Samples& { return s.frame_ns; })),
       fmt::format("frame over the sum of its effects alone; wanted at most {}",
@@ -312,7 +290,7 @@ void EffectsMeasurer::CaseMaker::addSums(const Frames& frames) {
     name = measurer_.scene_.materials[planes.lists[i].material].name;
   }
   if (!worst.empty())
-    add("mixed_over_sum_worst", "1", worst, fmt::format("pixels of material {}", name));
+    add("mixed_over_sum_worst", worst, fmt::format("pixels of material {}", name));
 }
 
 std::vector<Record> EffectsMeasurer::measure(const std::string& case_name, EffectSet set) {
@@ -328,9 +306,9 @@ std::vector<Record> EffectsMeasurer::measure(const std::string& case_name, Effec
     return cached == 0 ? std::string("clBuildProgram and first launches, from source")
                        : fmt::format("{} programs came from the disk cache", cached);
   };
-  maker.add("build_ms", "ms", {build_ms}, note(own_cached));
-  maker.add("uber_build_ms", "ms", {uber_build_ms}, note(uber_cached));
-  maker.add("programs", "1", {static_cast<double>(compared.own->renderer->configs().size())});
+  maker.add("build_ms", {build_ms}, note(own_cached));
+  maker.add("uber_build_ms", {uber_build_ms}, note(uber_cached));
+  maker.add("programs", {static_cast<double>(compared.own->renderer->configs().size())});
   maker.addSums(frames);
   return maker.take();
 }

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "host/experiment/effects/effects_page.h"
+#include "host/experiment/summary_table.h"
 #include "host/report/picture/matrix_picture.h"
 #include "host/report/record/case_records.h"
 #include "host/report/record/text_table.h"
@@ -16,7 +18,6 @@ namespace {
 constexpr int kEntry_px = 44;
 // Ends of the colours; most ratios lie between.
 constexpr double kLowRatio = 0.5, kHighRatio = 2.5;
-constexpr double kMiB = 1024.0 * 1024.0;
 
 std::string mebibytes(const CaseRecords& records, const char* metric) {
   const Record* record = records.find(metric);
@@ -39,7 +40,7 @@ std::string sentence(std::span<const Record> records) {
       "A frame by specialised programs pays only for its effects: one program with every effect\n"
       "takes {:.2f} to {:.2f} times as long.",
       least, most);
-  if (const Record* sum = CaseRecords(records, "all").find("mixed_over_sum"))
+  if (const Record* sum = CaseRecords(records, kAllCase).find("mixed_over_sum"))
     text += fmt::format(
         " All effects together cost {:.2f} of the sum of what\neach costs alone (wanted: at most "
         "1.1).",
@@ -47,16 +48,61 @@ std::string sentence(std::span<const Record> records) {
   return text + "\n";
 }
 
-// Effects that stand alone in some case, in the order of the records.
+}  // namespace
+
+const TableSpec& effectsSpec() {
+  static const TableSpec spec = {
+      .name = "effects",
+      .title = "Effects on demand",
+      .about =
+          "Programs made for the effects of a scene against one program with everything in it.",
+      .metrics =
+          {{"shading_ms", "ms", "shading time",
+            "kernel events of the frame: specialised; uber over the full screen"},
+           {"uber_ms", "ms", "one program for all"},
+           {"uber_over_specialised", "1", "one program for all over specialised, time",
+            "uber, all pixels in the order of the screen, over specialised on pixel lists"},
+           {"uber_on_lists_over_specialised", "1", "one program on the same lists, time",
+            "the uber program on the same pixel lists: what the code that is not needed costs"},
+           {"full_screen_over_lists", "1", "full screen over pixel lists, time",
+            "the uber program over the full screen, over the same on pixel lists: what branching "
+            "within work-items costs"},
+           {"mixed_over_sum", "1", "together over the sum of each alone",
+            "the frame over base + Σ (effect alone − what it needs), wanted at most 1.1. Lights of "
+            "an environment shine in every frame of the sum, since each effect shades each light. "
+            "Cases of two surface effects and more"},
+           {"mixed_over_sum_worst", "1", "the same, worst material",
+            "the same over the pixels of the material that fares worst, among those of at least 2 "
+            "% "
+            "of the frame"},
+           {"planes_bytes", "bytes", "planes", "rasterized planes"},
+           {"tables_bytes", "bytes", "tables",
+            "all device buffers but planes and radiance: textures, tables, lights, parameters"},
+           {"peak_bytes", "bytes", "buffers at most",
+            "device buffers really allocated, most at once"},
+           {"uber_peak_bytes", "bytes"},
+           {"build_ms", "ms", "program build",
+            "clBuildProgram and first launches of the set's programs, from source; `note` says if "
+            "the disk cache had some. A cold figure needs fresh folders in `GLINTMARK_CACHE_DIR` "
+            "and `POCL_CACHE_DIR`"},
+           {"uber_build_ms", "ms", "build of the one program"},
+           {"programs", "1", "", "different programs of the frame"}},
+      .cost_ratios = {"mixed_over_sum", "mixed_over_sum_worst"},
+      .headline = Headline{"uber_over_specialised", "times as long if every effect is compiled in"},
+      .pictures = {{.kind = PictureGroup::Kind::kHidden,
+                    .pictures = {{"effects_matrix.png", "Time ratios of pairs of effects"}}}},
+      .section = effectsHtml,
+  };
+  return spec;
+}
+
 std::vector<std::string> singleEffects(std::span<const Record> records) {
   std::vector<std::string> singles;
   for (const std::string& name : caseNames(records))
-    if (name != "none" && name != "all" && name.find('+') == std::string::npos)
+    if (name != "none" && name != kAllCase && name.find('+') == std::string::npos)
       singles.push_back(name);
   return singles;
 }
-
-}  // namespace
 
 std::string effectsTableText(std::span<const Record> records) {
   TextTable table({"effects", "ms", "uber", "screen", "sum", "worst", "planes", "tables", "build",

@@ -2,11 +2,20 @@
 #pragma once
 #include <span>
 #include <string>
+#include <vector>
 
 #include "host/core/image.h"
-#include "host/report/record/record.h"
+#include "host/report/record/table_spec.h"
 
 namespace glintmark {
+
+/// Table "effects": names, metrics, what the page shows.
+const TableSpec& effectsSpec();
+
+inline constexpr double kMiB = 1024.0 * 1024.0;
+
+/// Effects that stand alone in some case, in the order of the records.
+std::vector<std::string> singleEffects(std::span<const Record> records);
 
 /// One row a set of effects, and one sentence of what they show. At most 100 columns.
 std::string effectsTableText(std::span<const Record> records);

@@ -4,55 +4,59 @@
 
 #include "host/experiment/msbrdf/msbrdf_cases.h"
 #include "host/experiment/msbrdf/msbrdf_table.h"
+#include "host/experiment/summary_table.h"
 #include "host/report/picture/image_io.h"
+#include "host/report/record/case_name.h"
 
 namespace glintmark {
 namespace {
 
 std::vector<std::string> alphaCases(const char* kind) {
   std::vector<std::string> cases;
-  for (const double alpha : kMsbrdfAlphas) cases.push_back(fmt::format("{}/alpha={}", kind, alpha));
+  for (const double alpha : kMsbrdfAlphas)
+    cases.push_back(CaseName{{kind}, {{kAlphaKnob, alpha}}}.text());
   return cases;
 }
 
 std::vector<std::string> energyCases() {
   std::vector<std::string> cases;
-  for (const std::string& alpha : alphaCases("energy"))
+  for (const double alpha : kMsbrdfAlphas)
     for (const int theta_deg : kMsbrdfThetas_deg)
-      cases.push_back(fmt::format("{}/theta={}", alpha, theta_deg));
+      cases.push_back(
+          CaseName{{kEnergyKind}, {{kAlphaKnob, alpha}, {kThetaKnob, theta_deg}}}.text());
   return cases;
 }
 
 void measure(BenchRun& run) {
+  const std::string& table = msbrdfSpec().name;
   const auto bind = [&run](std::vector<Record> (*measureCase)(BenchRun&, const std::string&)) {
     return [&run, measureCase](const std::string& name) { return measureCase(run, name); };
   };
-  run.measureCases(kMsbrdfTable, alphaCases("surface"),
+  run.measureCases(table, alphaCases(kSurfaceKind),
                    {"rays_per_s", "simulate_ms", "energy_balance", "order_6"},
                    bind(measureSurface));
-  run.measureCases(kMsbrdfTable, alphaCases("model"),
-                   {"lobe_error", "furnace", "furnace_simulated"}, bind(measureModel));
-  run.measureCases(kMsbrdfTable, energyCases(), {"order_1", "order_2", "order_3", "order_2_eon"},
+  run.measureCases(table, alphaCases(kModelKind), {"lobe_error", "furnace", "furnace_simulated"},
+                   bind(measureModel));
+  run.measureCases(table, energyCases(), {"order_1", "order_2", "order_3", "order_2_eon"},
                    bind(measureEnergy));
-  run.measureCases(kMsbrdfTable, alphaCases("metal"),
+  run.measureCases(table, alphaCases(kMetalKind),
                    {"furnace_before", "furnace_after", "furnace_after_simulated"},
                    bind(measureMetal));
-  run.measureCases(kMsbrdfTable, {"all"},
-                   {"runtime_ms", "speedup_vs_w1", "fit_ms", "normalised_cost"},
+  run.measureCases(table, {kAllCase}, {"runtime_ms", "speedup_vs_w1", "fit_ms", "normalised_cost"},
                    [&run](const std::string&) { return measureMsbrdfCost(run); });
-  writePng(energyChart(run.recordsOf(kMsbrdfTable)), run.folder() / "msbrdf_energy.png");
-  writePng(sweepPicture(run), run.folder() / "msbrdf_sweep.png");
+  writePng(energyChart(run.recordsOf(table)), run.folder() / kEnergyPicture);
+  writePng(sweepPicture(run), run.folder() / kSweepPicture);
 }
 
 std::string text(const BenchRun& run) {
-  const std::vector<Record> records = run.recordsOf(kMsbrdfTable);
+  const std::vector<Record> records = run.recordsOf(msbrdfSpec().name);
   return msbrdfTableText(records) + invalidText(records);
 }
 
 }  // namespace
 
 BenchTable msbrdfBench() {
-  return {kMsbrdfTable, {}, {}, measure, text};
+  return {msbrdfSpec(), {}, {}, measure, text};
 }
 
 }  // namespace glintmark

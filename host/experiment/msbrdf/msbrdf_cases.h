@@ -11,7 +11,6 @@
 
 namespace glintmark {
 
-inline constexpr const char* kMsbrdfTable = "msbrdf";
 inline constexpr double kMsbrdfAlphas[] = {0.1, 0.24, 0.43, 0.62, 0.8, 1.0};
 inline constexpr int kMsbrdfThetas_deg[] = {0, 30, 60, 80};
 inline constexpr std::uint64_t kMsbrdfSurfaceRays = std::uint64_t{1} << 22;
@@ -21,8 +20,8 @@ inline constexpr std::uint64_t kMsbrdfModelRays = std::uint64_t{1} << 20;
 class MsbrdfCase {
  public:
   MsbrdfCase(BenchRun& run, const std::string& name) : run_(run), name_(name) {}
-  void add(const std::string& metric, const std::string& unit, const std::vector<double>& samples,
-           bool valid = true, const std::string& note = "");
+  void add(const std::string& metric, const std::vector<double>& samples, bool valid = true,
+           const std::string& note = "");
   std::vector<Record> take() { return std::move(records_); }
 
  private:
@@ -33,8 +32,6 @@ class MsbrdfCase {
 
 SimulationSettings diffuseSettings(double alpha, double incidence_deg, int orders,
                                    std::uint64_t rays);
-/// Number after `key` and '=' in a case's name; Error if there is none.
-double numberIn(const std::string& case_name, const std::string& key);
 
 /// A model's energy per solid angle towards a cosine and azimuth, of facets of Beckmann roughness
 /// `alpha`, at a cosine of incidence and the facets' albedo; the models of multiple scattering with

@@ -4,22 +4,23 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <optional>
+#include <memory>
 
 #include "host/core/stopwatch.h"
+#include "host/experiment/frame_timing.h"
 #include "host/experiment/msbrdf/msbrdf_cases.h"
 #include "host/experiment/msbrdf/msbrdf_table.h"
-#include "host/experiment/tao21/tao21_view.h"
-#include "host/frame/frame_renderer.h"
+#include "host/experiment/paper_gpu.h"
+#include "host/experiment/summary_table.h"
 #include "host/frame/white_furnace.h"
 #include "host/reference/microfacet.h"
+#include "host/report/metrics.h"
 #include "host/report/picture/picture_strip.h"
 #include "host/report/picture/tonemap.h"
+#include "host/report/record/case_name.h"
 
 namespace glintmark {
 namespace {
-
-using Samples = std::vector<double>;
 
 constexpr int kMostSimulations = 5;
 constexpr double kFurnaceCosines[] = {0.1, 0.2, 0.4, 0.6, 0.8, 1.0};
@@ -34,32 +35,14 @@ class ChangedFrame {
                const ShadingOptions& options)
       : scene_(std::move(scene)) {
     for (Material& material : scene_.materials) change(material);
-    renderer_.emplace(run.device(), scene_, scene_.views.front(), options);
-    renderer_->prepare();
-    renderer_->shade();
+    renderer_ = preparedFrame(run, scene_, scene_.views.front(), options);
   }
   FrameRenderer& renderer() { return *renderer_; }
 
  private:
   Scene scene_;
-  std::optional<FrameRenderer> renderer_;
+  std::unique_ptr<FrameRenderer> renderer_;
 };
-
-ShadingOptions benchOptions(const BenchRun& run, int lanes) {
-  const ImageSize size = parseSize(run.options().size);
-  return {.width_px = size.width_px, .height_px = size.height_px, .lanes = lanes};
-}
-
-// `combine` of the two frames' milliseconds, in turn.
-template <typename Combine>
-Samples measureInTurn(BenchRun& run, ChangedFrame& a, ChangedFrame& b, const Combine& combine) {
-  Samples samples;
-  for (int rep = 0; rep < run.options().reps; ++rep) {
-    const double a_ms = shadeMs(a.renderer());
-    samples.push_back(combine(a_ms, shadeMs(b.renderer())));
-  }
-  return samples;
-}
 
 void setLambert(Material& material) {
   material.diffuse_model = DiffuseModel::kLambert;
@@ -70,9 +53,10 @@ void setLambert(Material& material) {
 // pictures are finite and not negative.
 std::pair<Samples, bool> measureChange(BenchRun& run, const Scene& scene,
                                        const std::function<void(Material&)>& change) {
-  const ShadingOptions options = benchOptions(run, run.info().width);
+  const ShadingOptions options = run.shading();
   ChangedFrame with(run, scene, change, options), without(run, scene, setLambert, options);
-  Samples samples = measureInTurn(run, with, without, std::minus<>());
+  Samples samples =
+      shadeInTurn(with.renderer(), without.renderer(), run.options().reps).differences();
   return {samples,
           isSane(with.renderer().readRadiance()) && isSane(without.renderer().readRadiance())};
 }
@@ -81,7 +65,7 @@ void addRuntimes(BenchRun& run, const Scene& scene, MsbrdfCase& result) {
   const auto add = [&](const char* metric, const std::function<void(Material&)>& change,
                        const char* note) {
     const auto [samples, sane] = measureChange(run, scene, change);
-    result.add(metric, "ms", samples, sane,
+    result.add(metric, samples, sane,
                sane ? note : "not valid: radiance is negative or not finite");
   };
   const auto model = [](DiffuseModel chosen) {
@@ -110,18 +94,19 @@ void addRuntimes(BenchRun& run, const Scene& scene, MsbrdfCase& result) {
 // One lane's time over that of all lanes; valid if both give the same bits.
 void addSpeedup(BenchRun& run, const Scene& scene, MsbrdfCase& result) {
   const auto refit = [](Material& material) { material.diffuse_model = DiffuseModel::kRefit; };
-  ChangedFrame narrow(run, scene, refit, benchOptions(run, 1));
-  ChangedFrame wide(run, scene, refit, benchOptions(run, run.info().width));
-  const Samples samples = measureInTurn(run, narrow, wide, std::divides<>());
+  ShadingOptions one_lane = run.shading();
+  one_lane.lanes = 1;
+  ChangedFrame narrow(run, scene, refit, one_lane), wide(run, scene, refit, run.shading());
+  const Samples samples =
+      shadeInTurn(narrow.renderer(), wide.renderer(), run.options().reps).ratios();
   const bool same =
       narrow.renderer().readRadiance().pixels == wide.renderer().readRadiance().pixels;
-  result.add("speedup_vs_w1", "1", samples, same,
+  result.add("speedup_vs_w1", samples, same,
              same ? "kernel events of the frame with the refit, in turn"
                   : "not valid: one lane gives another picture");
-  Samples off_ms;
-  ChangedFrame lambert(run, scene, setLambert, benchOptions(run, run.info().width));
-  for (int rep = 0; rep < run.options().reps; ++rep) off_ms.push_back(shadeMs(lambert.renderer()));
-  result.add("lambert_ms", "ms", off_ms, true, "kernel events of the frame with the effect off");
+  ChangedFrame lambert(run, scene, setLambert, run.shading());
+  const Samples off_ms = shadeTimesMs(lambert.renderer(), run.options().reps);
+  result.add("lambert_ms", off_ms, true, "kernel events of the frame with the effect off");
 }
 
 // Milliseconds that 500 million rays of four orders would take, scaled up from fewer.
@@ -159,7 +144,7 @@ double measureFit(BenchRun& run) {
 }  // namespace
 
 std::vector<Record> measureMetal(BenchRun& run, const std::string& name) {
-  const double alpha = numberIn(name, "alpha");
+  const double alpha = CaseName::parse(name).number(kAlphaKnob);
   Material mirror;
   mirror.name = "mirror";
   mirror.has_glints = false;
@@ -185,7 +170,7 @@ std::vector<Record> measureMetal(BenchRun& run, const std::string& name) {
         valid = valid && std::abs(samples.back() - lobe) < kFurnaceTolerance;
       valid = valid && samples.back() <= kMostFurnace;
     }
-    result.add(metric, "1", samples, valid,
+    result.add(metric, samples, valid,
                valid ? "over view cosines 0.1 to 1"
                      : "not valid: not the lobe's integral, or more than came in");
   }
@@ -193,17 +178,18 @@ std::vector<Record> measureMetal(BenchRun& run, const std::string& name) {
 }
 
 std::vector<Record> measureMsbrdfCost(BenchRun& run) {
-  MsbrdfCase result(run, "all");
+  MsbrdfCase result(run, kAllCase);
   const Scene scene = openScene(run.session().common, "rough_plane");
   addRuntimes(run, scene, result);
   addSpeedup(run, scene, result);
-  result.add("fit_ms", "ms", {measureFit(run)}, true, "polynomials to 48 lobes");
+  result.add("fit_ms", {measureFit(run)}, true, "polynomials to 48 lobes");
   Samples simulation_ms = measureSimulation(run);
   const double peak_gflops = measurePeaks(run.device(), run.cache(), run.info().width).gflops;
-  result.add("simulate_500m_ms", "ms", simulation_ms, true,
+  result.add("simulate_500m_ms", simulation_ms, true,
              fmt::format("scaled up from {} rays", kMsbrdfSurfaceRays));
-  for (double& sample : simulation_ms) sample *= peak_gflops / (kPat18Ms * kPat18PeakGflops);
-  result.add("normalised_cost", "1", simulation_ms);
+  for (double& sample : simulation_ms)
+    sample = normalisedCost(sample, peak_gflops, kPat18Ms, kPat18PeakGflops);
+  result.add("normalised_cost", simulation_ms);
   return result.take();
 }
 

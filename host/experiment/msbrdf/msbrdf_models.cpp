@@ -6,17 +6,16 @@
 #include <functional>
 #include <numbers>
 
-#include "host/core/error.h"
 #include "host/core/stopwatch.h"
+#include "host/experiment/frame_timing.h"
 #include "host/experiment/msbrdf/msbrdf_cases.h"
 #include "host/experiment/msbrdf/msbrdf_table.h"
 #include "host/fit/multiscatter_data.h"
 #include "host/report/picture/line_chart.h"
+#include "host/report/record/case_name.h"
 
 namespace glintmark {
 namespace {
-
-using Samples = std::vector<double>;
 
 constexpr double kPi = std::numbers::pi;
 // Of the furnace integral: its midpoint rule is good to 1e-3.
@@ -74,9 +73,9 @@ std::function<double(double, double)> diffuseEnergy(DiffuseModel model, double a
   };
 }
 
-void MsbrdfCase::add(const std::string& metric, const std::string& unit, const Samples& samples,
-                     bool valid, const std::string& note) {
-  records_.push_back(run_.record(kMsbrdfTable, name_, metric, unit, samples, note));
+void MsbrdfCase::add(const std::string& metric, const Samples& samples, bool valid,
+                     const std::string& note) {
+  records_.push_back(run_.record(msbrdfSpec(), name_, metric, samples, note));
   records_.back().valid = valid;
 }
 
@@ -90,16 +89,11 @@ SimulationSettings diffuseSettings(double alpha, double incidence_deg, int order
   return s;
 }
 
-double numberIn(const std::string& case_name, const std::string& key) {
-  const std::size_t at = case_name.find("/" + key + "=");
-  if (at == std::string::npos) throw Error(fmt::format("no {} in case {}", key, case_name));
-  return std::stod(case_name.substr(at + key.size() + 2));
-}
-
 std::vector<Record> measureSurface(BenchRun& run, const std::string& name) {
   Simulator simulator(run.device(), run.cache(), run.info().width);
-  const SimulationSettings settings = diffuseSettings(
-      numberIn(name, "alpha"), 45, static_cast<int>(HF_MAX_ORDERS), kMsbrdfSurfaceRays);
+  const SimulationSettings settings =
+      diffuseSettings(CaseName::parse(name).number(kAlphaKnob), 45, static_cast<int>(HF_MAX_ORDERS),
+                      kMsbrdfSurfaceRays);
   SimulationSettings warm_up = settings;
   warm_up.rays = 1;
   simulator.run(warm_up);
@@ -115,17 +109,17 @@ std::vector<Record> measureSurface(BenchRun& run, const std::string& name) {
   }
   const bool valid = simulation.balance() == 1 && simulation.gaveUp() == 0;
   MsbrdfCase result(run, name);
-  result.add("rays_per_s", "1/s", rates, valid);
-  result.add("simulate_ms", "ms", {watch.elapsedNs() * 1e-6}, valid,
+  result.add("rays_per_s", rates, valid);
+  result.add("simulate_ms", {watch.elapsedNs() * 1e-6}, valid,
              fmt::format("{} rays, 6 orders, incidence 45 degrees", settings.rays));
-  result.add("energy_balance", "1", {simulation.balance()}, valid);
+  result.add("energy_balance", {simulation.balance()}, valid);
   for (int order = 1; order <= settings.orders; ++order)
-    result.add(fmt::format("order_{}", order), "1", {orderEnergy(simulation, order)}, valid);
+    result.add(fmt::format("order_{}", order), {orderEnergy(simulation, order)}, valid);
   return result.take();
 }
 
 std::vector<Record> measureModel(BenchRun& run, const std::string& name) {
-  const double alpha = numberIn(name, "alpha");
+  const double alpha = CaseName::parse(name).number(kAlphaKnob);
   Simulator simulator(run.device(), run.cache(), run.info().width);
   constexpr std::size_t kModels = 5, kWithFurnace = 3;
   constexpr const char* kSuffixes[kModels] = {"", "_published", "_eon", "_eon_unfitted",
@@ -150,19 +144,20 @@ std::vector<Record> measureModel(BenchRun& run, const std::string& name) {
   }
   MsbrdfCase result(run, name);
   for (std::size_t i = 0; i < kModels; ++i)
-    result.add(fmt::format("lobe_error{}", kSuffixes[i]), "1", errors[i], true,
+    result.add(fmt::format("lobe_error{}", kSuffixes[i]), errors[i], true,
                "root mean square over mean, over incidences 0 to 80 degrees");
   for (std::size_t i = 0; i < kWithFurnace; ++i) {
     const bool valid = *std::ranges::max_element(furnaces[i]) <= kFurnaceBound;
-    result.add(fmt::format("furnace{}", kSuffixes[i]), "1", furnaces[i], valid,
+    result.add(fmt::format("furnace{}", kSuffixes[i]), furnaces[i], valid,
                valid ? "" : "not valid: more energy than came in");
   }
-  result.add("furnace_simulated", "1", simulated);
+  result.add("furnace_simulated", simulated);
   return result.take();
 }
 
 std::vector<Record> measureEnergy(BenchRun& run, const std::string& name) {
-  const double alpha = numberIn(name, "alpha"), theta_deg = numberIn(name, "theta");
+  const CaseName parts = CaseName::parse(name);
+  const double alpha = parts.number(kAlphaKnob), theta_deg = parts.number(kThetaKnob);
   Simulator simulator(run.device(), run.cache(), run.info().width);
   stopIfInterrupted();
   const Simulation simulation =
@@ -170,15 +165,15 @@ std::vector<Record> measureEnergy(BenchRun& run, const std::string& name) {
   const double mu = std::cos(theta_deg * kPi / 180);
   MsbrdfCase result(run, name);
   for (int order = 1; order <= 3; ++order)
-    result.add(fmt::format("order_{}", order), "1", {orderEnergy(simulation, order)});
+    result.add(fmt::format("order_{}", order), {orderEnergy(simulation, order)});
   double rest = 0;
   for (int order = 4; order <= 6; ++order) rest += orderEnergy(simulation, order);
-  result.add("rest", "1", {rest}, true, "orders 4 to 6");
+  result.add("rest", {rest}, true, "orders 4 to 6");
   for (const EnergyModel& model : energyModels())
     for (int order = 1; order <= 3; ++order) {
       if (std::string_view(model.name) == "eon" && order == 3) continue;
-      result.add(fmt::format("order_{}_{}", order, model.name), "1",
-                 {model.share(alpha, mu, order)}, true,
+      result.add(fmt::format("order_{}_{}", order, model.name), {model.share(alpha, mu, order)},
+                 true,
                  std::string_view(model.name) == "eon" && order == 2 ? "all orders above 1" : "");
     }
   return result.take();
@@ -195,8 +190,9 @@ ChartPanel energyPanel(std::span<const Record> records, int order, bool over_alp
   panel.x_high = over_alpha ? 1 : 90;
   ChartSeries dots{"simulated", seriesColour(0), {}, {}, true};
   for (const Record& r : records) {
-    if (!r.case_.starts_with("energy/") || r.metric != fmt::format("order_{}", order)) continue;
-    const double alpha = numberIn(r.case_, "alpha"), theta_deg = numberIn(r.case_, "theta");
+    const CaseName name = CaseName::parse(r.case_);
+    if (name.word(0) != kEnergyKind || r.metric != fmt::format("order_{}", order)) continue;
+    const double alpha = name.number(kAlphaKnob), theta_deg = name.number(kThetaKnob);
     if ((over_alpha ? theta_deg : alpha) != fixed) continue;
     dots.x.push_back(over_alpha ? alpha : theta_deg);
     dots.y.push_back(r.value.median);

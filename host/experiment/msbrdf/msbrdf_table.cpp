@@ -4,17 +4,86 @@
 
 #include <vector>
 
+#include "host/experiment/summary_table.h"
+#include "host/report/record/case_name.h"
+#include "host/report/record/case_records.h"
 #include "host/report/record/text_table.h"
 
 namespace glintmark {
 namespace {
 
-// The cases that begin with `prefix`, each once.
-std::vector<std::string> casesOf(std::span<const Record> records, const std::string& prefix) {
-  std::vector<std::string> cases;
-  for (const Record& record : records)
-    if (record.case_.starts_with(prefix) && (cases.empty() || cases.back() != record.case_))
-      cases.push_back(record.case_);
+std::vector<MetricSpec> metrics() {
+  return {
+      {"rays_per_s", "1/s", "rays per second",
+       "diffuse surface, albedo 1, incidence 45°, six orders; 2²² rays, surfaces included",
+       "`surface/alpha=…`"},
+      {"simulate_ms", "ms", "simulation"},
+      {"energy_balance", "1", "energy accounted for",
+       "everything counted over the rays; valid only if exactly 1 and no ray was given up"},
+      {"order_1", "1", "",
+       "energy that leaves after so many bounces, albedo 1; simulated, of `energy/…` orders 1 to 3",
+       "`surface/alpha=…`, `energy/alpha=…/theta=…`"},
+      {"order_2", "1"},
+      {"order_3", "1"},
+      {"order_4", "1"},
+      {"order_5", "1"},
+      {"order_6", "1"},
+      {"lobe_error", "1", "error of our lobes",
+       "all orders against the simulation: root mean square over mean, over incidences 0 to 80°; "
+       "EON with its fitted roughness, and with α itself",
+       "`model/alpha=…`"},
+      {"lobe_error_published", "1", "error of the published lobes"},
+      {"lobe_error_eon", "1", "error of EON"},
+      {"lobe_error_eon_unfitted", "1"},
+      {"lobe_error_lambert", "1", "error of Lambert"},
+      {"furnace", "1", "white furnace",
+       "energy of a beam that leaves at albedo 1; not valid above 1.002"},
+      {"furnace_published", "1"},
+      {"furnace_eon", "1"},
+      {"furnace_simulated", "1"},
+      {"rest", "1", "", "simulated energy after 4 to 6 bounces, albedo 1",
+       "`energy/alpha=…/theta=…`"},
+      {"order_1_published", "1", "",
+       "the models' lobes; EON knows single scattering and the rest, which stands at "
+       "`order_2_eon`"},
+      {"order_2_published", "1"},
+      {"order_3_published", "1"},
+      {"order_1_refit", "1"},
+      {"order_2_refit", "1"},
+      {"order_3_refit", "1"},
+      {"order_1_eon", "1"},
+      {"order_2_eon", "1"},
+      {"furnace_before", "1", "",
+       "a mirror (f0 = 1) in a white furnace by the shading kernels, over view cosines 0.1 to 1: "
+       "as "
+       "it is, with its lobe's own energy given back, with the simulated surfaces'",
+       "`metal/alpha=…`"},
+      {"furnace_after", "1"},
+      {"furnace_after_simulated", "1"},
+      {"runtime_ms", "ms", "multiple scattering at run time",
+       "kernel events with the model (refit; refit with masking; a metal's albedo scaling) minus "
+       "Lambert's, full screen, in turn",
+       "`all`"},
+      {"runtime_published_ms", "ms"},
+      {"runtime_eon_ms", "ms"},
+      {"runtime_masking_ms", "ms"},
+      {"runtime_compensation_ms", "ms"},
+      {"speedup_vs_w1", "1", "speed-up over one lane",
+       "kernel events of the frame with the refit at one lane over all lanes, in turn"},
+      {"lambert_ms", "ms", "frame with Lambert", "kernel events of the frame with the effect off"},
+      {"fit_ms", "ms", "fit", "polynomials fitted to 48 lobes"},
+      {"simulate_500m_ms", "ms", "500 million rays, four orders",
+       "four orders at α = 0.8, scaled up to 500 million rays; that × our peak / (500 ms × 4980 "
+       "GFLOP/s): [PAT18] names no GPU, a GTX 980 is assumed"},
+      {"normalised_cost", "1", "cost per FLOP over the paper's"}};
+}
+
+// The cases of a kind, each once.
+std::vector<CaseName> casesOf(std::span<const Record> records, const std::string& kind) {
+  std::vector<CaseName> cases;
+  for (const std::string& name : caseNames(records))
+    if (CaseName parts = CaseName::parse(name); parts.word(0) == kind && !parts.knobs.empty())
+      cases.push_back(std::move(parts));
   return cases;
 }
 
@@ -26,16 +95,16 @@ std::string cell(std::span<const Record> records, const std::string& case_name,
   return "-";
 }
 
-std::string section(std::span<const Record> records, const std::string& prefix,
+std::string section(std::span<const Record> records, const std::string& kind,
                     const std::vector<std::string>& metrics, const std::vector<std::string>& heads,
                     const char* format) {
-  std::vector<std::string> header = {prefix};
+  std::vector<std::string> header = {kind + "/"};
   header.insert(header.end(), heads.begin(), heads.end());
   TextTable table(header);
-  for (const std::string& name : casesOf(records, prefix)) {
-    std::vector<std::string> row = {name.substr(prefix.size())};
+  for (const CaseName& name : casesOf(records, kind)) {
+    std::vector<std::string> row = {name.rest().text()};
     for (const std::string& metric : metrics)
-      row.push_back(cell(records, name, metric, metric == "rays_per_s" ? "{:.3g}" : format));
+      row.push_back(cell(records, name.text(), metric, metric == "rays_per_s" ? "{:.3g}" : format));
     table.addRow(row);
   }
   return table.toString();
@@ -53,7 +122,7 @@ std::string energySection(std::span<const Record> records, int order) {
     heads.push_back(order == 1 ? "EON" : "EON, all above 1");
   }
   return fmt::format("Energy of order {}, albedo 1\n", order) +
-         section(records, "energy/", metrics, heads, "{:.4f}");
+         section(records, kEnergyKind, metrics, heads, "{:.4f}");
 }
 
 // Least and greatest of a metric.
@@ -68,10 +137,12 @@ std::string range(std::span<const Record> records, const std::string& case_name,
 
 std::string metalSection(std::span<const Record> records) {
   TextTable table({"metal/", "before", "after", "after, simulated table"});
-  for (const std::string& name : casesOf(records, "metal/"))
-    table.addRow({name.substr(6), range(records, name, "furnace_before"),
-                  range(records, name, "furnace_after"),
-                  range(records, name, "furnace_after_simulated")});
+  for (const CaseName& name : casesOf(records, kMetalKind)) {
+    const std::string text = name.text();
+    table.addRow({name.rest().text(), range(records, text, "furnace_before"),
+                  range(records, text, "furnace_after"),
+                  range(records, text, "furnace_after_simulated")});
+  }
   return "Mirrors in a white furnace, by the kernels: least and greatest (p95) over view cosines "
          "0.1 to "
          "1\n" +
@@ -80,21 +151,42 @@ std::string metalSection(std::span<const Record> records) {
 
 }  // namespace
 
+const TableSpec& msbrdfSpec() {
+  static const TableSpec spec = {
+      .name = "msbrdf",
+      .title = "Multiple scattering",
+      .about = "Simulated surfaces, the lobes fitted to them, and what the lobes cost at run time.",
+      .source = "Patapom 2018: 500 million rays in half a second; a GeForce GTX 980 is assumed",
+      .citation = "[PAT18]",
+      .metrics = metrics(),
+      .headline = Headline{"runtime_ms", "ms more for multiple scattering, full screen"},
+      .curves = {{"order_1", "order_2", "order_3", "order_4", "order_5", "order_6"},
+                 {"lobe_error", "lobe_error_published", "lobe_error_eon", "lobe_error_lambert"},
+                 {"furnace", "furnace_published", "furnace_eon"},
+                 {"furnace_before", "furnace_after", "furnace_after_simulated"}},
+      .pictures = {{.pictures = {{kEnergyPicture, "Energy over roughness and incidence"},
+                                 {kSweepPicture,
+                                  "Rough clay: rows by model, columns by roughness"}},
+                    .large = true}},
+  };
+  return spec;
+}
+
 std::string msbrdfTableText(std::span<const Record> records) {
   std::string text = "Energy per order, diffuse, albedo 1, incidence 45 degrees\n";
-  text += section(records, "surface/",
+  text += section(records, kSurfaceKind,
                   {"rays_per_s", "order_1", "order_2", "order_3", "order_4", "order_5", "order_6"},
                   {"rays/s", "1", "2", "3", "4", "5", "6"}, "{:.5f}");
   text += "\nModels against the simulation: error of the lobe, energy in the white furnace\n";
   text += section(
-      records, "model/",
+      records, kModelKind,
       {"lobe_error", "lobe_error_published", "lobe_error_eon", "lobe_error_eon_unfitted",
        "lobe_error_lambert", "furnace", "furnace_published", "furnace_eon", "furnace_simulated"},
       {"refit", "published", "EON", "EON, r=alpha", "Lambert", "refit", "published", "EON",
        "simulated"},
       "{:.4f}");
-  for (const int order : {1, 2, 3}) text += "\n" + energySection(records, order);
-  text += "\n" + metalSection(records);
+  for (const int order : {1, 2, 3}) text.append("\n").append(energySection(records, order));
+  text.append("\n").append(metalSection(records));
   text += fmt::format(
       "\n500 million rays of 4 orders at roughness 0.8: {} ms (paper: about {:.0f} ms)\n"
       "normalised cost {} (the paper's GPU is taken to be a GTX 980)\n"
@@ -102,14 +194,16 @@ std::string msbrdfTableText(std::span<const Record> records) {
       "EON: "
       "{},\nrefit with masking: {}, albedo scaling of metals: {} ms; {} x one lane\n"
       "fit of the polynomials {} ms\n",
-      cell(records, "all", "simulate_500m_ms", "{:.0f}"), kPat18Ms,
-      cell(records, "all", "normalised_cost", "{:.2f}"),
-      cell(records, "all", "lambert_ms", "{:.2f}"), cell(records, "all", "runtime_ms", "{:.2f}"),
-      cell(records, "all", "runtime_published_ms", "{:.2f}"),
-      cell(records, "all", "runtime_eon_ms", "{:.2f}"),
-      cell(records, "all", "runtime_masking_ms", "{:.2f}"),
-      cell(records, "all", "runtime_compensation_ms", "{:.2f}"),
-      cell(records, "all", "speedup_vs_w1", "{:.1f}"), cell(records, "all", "fit_ms", "{:.0f}"));
+      cell(records, kAllCase, "simulate_500m_ms", "{:.0f}"), kPat18Ms,
+      cell(records, kAllCase, "normalised_cost", "{:.2f}"),
+      cell(records, kAllCase, "lambert_ms", "{:.2f}"),
+      cell(records, kAllCase, "runtime_ms", "{:.2f}"),
+      cell(records, kAllCase, "runtime_published_ms", "{:.2f}"),
+      cell(records, kAllCase, "runtime_eon_ms", "{:.2f}"),
+      cell(records, kAllCase, "runtime_masking_ms", "{:.2f}"),
+      cell(records, kAllCase, "runtime_compensation_ms", "{:.2f}"),
+      cell(records, kAllCase, "speedup_vs_w1", "{:.1f}"),
+      cell(records, kAllCase, "fit_ms", "{:.0f}"));
   return text;
 }
 

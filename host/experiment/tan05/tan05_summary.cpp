@@ -3,58 +3,36 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
+#include "host/experiment/frame_timing.h"
+#include "host/experiment/frame_truth.h"
+#include "host/experiment/summary_table.h"
 #include "host/experiment/tan05/tan05_table.h"
-#include "host/experiment/tao21/tao21_view.h"
 #include "host/filter/normal_map_generators.h"
-#include "host/frame/ground_truth.h"
 #include "host/mixture/normal_mixture.h"
 #include "host/reference/texture.h"
 #include "host/report/metrics.h"
 #include "host/report/picture/tonemap.h"
+#include "host/report/record/case_name.h"
 
 namespace glintmark {
 namespace {
 
 constexpr const char* kKnobView = "oblique";
 constexpr const char* kSummaryView = "near";
+constexpr const char *kLobesKnob = "lobes", *kAnisotropyKnob = "anisotropy";
 constexpr int kLobeCounts[] = {1, 2, 4, 8};
 constexpr int kAnisotropies[] = {1, 2, 4, 8, 16};
 constexpr int kOneLaneReps = 5;
 constexpr int kFitSize_px = 512;
 constexpr double kFraction = 0x1p-32;
 
-using Samples = std::vector<double>;
-
 // Of a full frame at the command line's size.
 ShadingOptions fullOptions(const BenchRun& run, NormalMethod method) {
-  const ImageSize size = parseSize(run.options().size);
-  ShadingOptions options = tan05Settings(run).shading;
-  options.width_px = size.width_px;
-  options.height_px = size.height_px;
+  ShadingOptions options = run.shading();
   options.normal_method = method;
   return options;
-}
-
-std::unique_ptr<FrameRenderer> makeRenderer(BenchRun& run, const Tan05Scene& scene,
-                                            const View& view, const ShadingOptions& options) {
-  auto renderer = std::make_unique<FrameRenderer>(run.device(), scene.scene, view, options,
-                                                  run.session().common.threads, scene.textures);
-  renderer->prepare();
-  renderer->shade();
-  return renderer;
-}
-
-// Times of `first` over those of `second`, in turn.
-Samples ratioInTurn(FrameRenderer& first, FrameRenderer& second, int reps) {
-  Samples ratio;
-  for (int rep = 0; rep < reps; ++rep) {
-    const double first_ms = shadeMs(first);
-    ratio.push_back(first_ms / shadeMs(second));
-  }
-  return ratio;
 }
 
 // Bytes of texels that the fetch reads, mean over the covered pixels. The lanes of a work-item read
@@ -84,19 +62,14 @@ double bytesPerPixel(const PixelPlanes& planes, const NormalMap& map, int most_p
   return pixels > 0 ? texels * static_cast<double>(texel_bytes) / pixels : 0;
 }
 
-struct Knob {
-  std::string name;
-  int value = 0;
-
-  explicit Knob(const std::string& case_name) {
-    const std::size_t slash = case_name.rfind('/'), equals = case_name.find('=');
-    name = case_name.substr(slash + 1, equals - slash - 1);
-    std::from_chars(case_name.data() + equals + 1, case_name.data() + case_name.size(), value);
-  }
-  void apply(ShadingOptions& options) const {
-    (name == "lobes" ? options.lobes : options.anisotropy) = value;
-  }
-};
+// Options with the case's knob turned.
+ShadingOptions turned(ShadingOptions options, const CaseName& name) {
+  if (name.value(kLobesKnob))
+    options.lobes = static_cast<int>(name.number(kLobesKnob));
+  else
+    options.anisotropy = static_cast<int>(name.number(kAnisotropyKnob));
+  return options;
+}
 
 const NormalMap& firstMap(const Tan05Scene& scene) {
   return *scene.scene.materials.front().normal_map->map;
@@ -116,10 +89,11 @@ double mixtureBytes(const BenchRun& run, const FrameRenderer& renderer, const Ta
 
 std::vector<std::string> tan05KnobCases() {
   std::vector<std::string> cases;
-  for (const int lobes : kLobeCounts)
-    cases.push_back(fmt::format("disk/{}/lobes={}", kKnobView, lobes));
-  for (const int anisotropy : kAnisotropies)
-    cases.push_back(fmt::format("disk/{}/anisotropy={}", kKnobView, anisotropy));
+  const auto add = [&](const char* knob, int value) {
+    cases.push_back(CaseName{{"disk", kKnobView}, {{knob, value}}}.text());
+  };
+  for (const int lobes : kLobeCounts) add(kLobesKnob, lobes);
+  for (const int anisotropy : kAnisotropies) add(kAnisotropyKnob, anisotropy);
   return cases;
 }
 
@@ -130,28 +104,25 @@ const std::vector<std::string>& tan05KnobMetrics() {
 
 std::vector<Record> measureTan05Knob(BenchRun& run, const Tan05Scene& scene,
                                      const std::string& case_name) {
-  const Knob knob(case_name);
-  const View& view = scene.scene.view(kKnobView);
-  ShadingOptions full = fullOptions(run, NormalMethod::kGmm);
-  knob.apply(full);
-  const auto renderer = makeRenderer(run, scene, view, full);
-  Samples times_ms;
-  for (int rep = 0; rep < run.options().reps; ++rep) times_ms.push_back(shadeMs(*renderer));
+  const CaseName name = CaseName::parse(case_name);
+  const View& view = scene.scene.view(name.word(1));
+  const ShadingOptions full = turned(fullOptions(run, NormalMethod::kGmm), name);
+  const auto renderer = preparedFrame(run, scene.scene, view, full, scene.textures);
+  const Samples times_ms = shadeTimesMs(*renderer, run.options().reps);
 
   Tan05Settings settings = tan05Settings(run);
-  knob.apply(settings.shading);
-  const TruthImages truth = renderTruth(
-      run.device(), scene.scene, view, settings.shading, settings.truth_spp,
-      [](int) { stopIfInterrupted(); }, settings.threads, scene.textures);
-  const auto small = makeRenderer(run, scene, view, settings.shading);
+  settings.shading = turned(settings.shading, name);
+  const TruthImages truth =
+      truthOf(run, scene.scene, view, settings.shading, settings.truth_spp, scene.textures);
+  const auto small = preparedFrame(run, scene.scene, view, settings.shading, scene.textures);
   const auto display = [&](const Image& image) {
     return toneMap(coveredPixels(image), {.exposure = scene.scene.post.exposure});
   };
   const double error = colourError(display(small->readRadiance()), display(truth.mean));
-  return {tan05Record(run, case_name, "shading_ms", "ms", times_ms, "kernel events"),
-          tan05Record(run, case_name, "bytes_per_px", "bytes",
-                      {mixtureBytes(run, *renderer, scene, full)}, "texels read"),
-          tan05Record(run, case_name, "colour_error", "1", {error}, "at 500x500")};
+  return {run.record(tan05Spec(), case_name, "shading_ms", times_ms, "kernel events"),
+          run.record(tan05Spec(), case_name, "bytes_per_px",
+                     {mixtureBytes(run, *renderer, scene, full)}, "texels read"),
+          run.record(tan05Spec(), case_name, "colour_error", {error}, "at 500x500")};
 }
 
 const std::vector<std::string>& tan05SummaryMetrics() {
@@ -165,33 +136,37 @@ std::vector<Record> measureTan05Summary(BenchRun& run, const Tan05Scene& scene) 
   const View& view = scene.scene.view(kSummaryView);
   const int reps = run.options().reps;
   const ShadingOptions options = fullOptions(run, NormalMethod::kGmm);
-  const auto gmm = makeRenderer(run, scene, view, options);
-  const auto toksvig = makeRenderer(run, scene, view, fullOptions(run, NormalMethod::kToksvig));
-  const auto fournier = makeRenderer(run, scene, view, fullOptions(run, NormalMethod::kFournier));
+  const auto frame = [&](const ShadingOptions& chosen) {
+    return preparedFrame(run, scene.scene, view, chosen, scene.textures);
+  };
+  const auto gmm = frame(options);
+  const auto toksvig = frame(fullOptions(run, NormalMethod::kToksvig));
+  const auto fournier = frame(fullOptions(run, NormalMethod::kFournier));
   ShadingOptions half_options = options, narrow_options = options;
   half_options.half_texels = true;
   narrow_options.lanes = 1;
-  const auto half = makeRenderer(run, scene, view, half_options);
-  const auto narrow = makeRenderer(run, scene, view, narrow_options);
-  const Samples one_lane =
-      options.lanes > 1 ? ratioInTurn(*narrow, *gmm, std::min(reps, kOneLaneReps)) : Samples{1};
+  const auto half = frame(half_options), narrow = frame(narrow_options);
+  const Samples one_lane = options.lanes > 1
+                               ? shadeInTurn(*narrow, *gmm, std::min(reps, kOneLaneReps)).ratios()
+                               : Samples{1};
   const bool same = relMse(gmm->readRadiance(), narrow->readRadiance()) == 0;
-  const NormalMixtures fitted = fitNormalMixtures(
-      generateNormalMap({.kind = "disk", .size_px = kFitSize_px}),
-      {.threads = run.session().common.threads}, [](double) { stopIfInterrupted(); });
+  const NormalMixtures fitted =
+      fitNormalMixtures(generateNormalMap({.kind = "disk", .size_px = kFitSize_px}),
+                        {.threads = run.threads()}, [](double) { stopIfInterrupted(); });
 
-  const auto record = [&](const char* metric, const char* unit, const Samples& samples,
-                          const std::string& note) {
-    return tan05Record(run, "all", metric, unit, samples, note);
+  const auto record = [&](const char* metric, const Samples& samples, const std::string& note) {
+    return run.record(tan05Spec(), kAllCase, metric, samples, note);
   };
   std::vector<Record> records = {
-      record("gmm_over_toksvig", "1", ratioInTurn(*gmm, *toksvig, reps), "kernel events, in turn"),
-      record("fournier_over_gmm", "1", ratioInTurn(*fournier, *gmm, std::min(reps, kOneLaneReps)),
+      record("gmm_over_toksvig", shadeInTurn(*gmm, *toksvig, reps).ratios(),
              "kernel events, in turn"),
-      record("speedup_vs_w1", "1", one_lane, "kernel events, in turn"),
-      record("half_over_float", "1", ratioInTurn(*half, *gmm, reps), "kernel events, in turn"),
-      record("fit_ms", "ms", {fitted.fit_ms}, "512x512, four lobes, not from the cache"),
-      record("bytes_per_px", "bytes", {mixtureBytes(run, *gmm, scene, options)}, "texels read")};
+      record("fournier_over_gmm",
+             shadeInTurn(*fournier, *gmm, std::min(reps, kOneLaneReps)).ratios(),
+             "kernel events, in turn"),
+      record("speedup_vs_w1", one_lane, "kernel events, in turn"),
+      record("half_over_float", shadeInTurn(*half, *gmm, reps).ratios(), "kernel events, in turn"),
+      record("fit_ms", {fitted.fit_ms}, "512x512, four lobes, not from the cache"),
+      record("bytes_per_px", {mixtureBytes(run, *gmm, scene, options)}, "texels read")};
   records[0].paper = 125.0 / 120;
   records[1].paper = 120.0 / 13;
   records[4].paper = kTan05FitMs;

@@ -15,7 +15,7 @@ std::vector<Record> measureTan05Knob(BenchRun& run, const Tan05Scene& scene,
                                      const std::string& case_name);
 
 const std::vector<std::string>& tan05SummaryMetrics();
-/// Case "all": at the size of the command line, view far of the disk.
+/// Case "all": at the size of the command line, view near of the disk.
 std::vector<Record> measureTan05Summary(BenchRun& run, const Tan05Scene& scene);
 
 }  // namespace glintmark

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 
+#include "host/experiment/summary_table.h"
+#include "host/report/record/case_name.h"
 #include "host/report/record/case_records.h"
 #include "host/report/record/text_table.h"
 
@@ -35,11 +37,6 @@ std::string paperText(const CaseRecords& one, const char* metric, const char* fo
                                              : fmt::format(fmt::runtime(format), *record->paper);
 }
 
-struct SummaryRow {
-  const char* metric;
-  const char* what;
-  const char* paper;
-};
 constexpr SummaryRow kSummary[] = {
     {"gmm_over_toksvig", "four lobes over Toksvig, time", "1.04"},
     {"fournier_over_gmm", "Fournier over four lobes, time", "9.2"},
@@ -48,7 +45,81 @@ constexpr SummaryRow kSummary[] = {
     {"half_over_float", "half-precision texels over single, time", "-"},
     {"fit_ms", "fit of a 512x512 map, four lobes, ms", "300000"}};
 
+// "disk/near" of "disk/near/gmm".
+CaseName viewOf(CaseName name) {
+  if (!name.words.empty()) name.words.pop_back();
+  return name;
+}
+
+// The case of a method in a view, "disk/near".
+std::string tan05Case(const std::string& view, const std::string& method) {
+  CaseName name = CaseName::parse(view);
+  name.words.push_back(method);
+  return name.text();
+}
+
 }  // namespace
+
+const TableSpec& tan05Spec() {
+  static const TableSpec spec = {
+      .name = "tan05",
+      .title = "Normal filtering",
+      .about = "Mixtures of Gaussians against the other ways to filter a normal map.",
+      .source = "Tan et al. 2005: GeForce 6800 GT, 500×500",
+      .citation = "[TAN05]",
+      .metrics =
+          {{"shading_ms", "ms", "shading time",
+            "kernel events of the frame, at 500×500 with all methods in turn; of knobs at the "
+            "command line's size",
+            "`scene/view/method`, `disk/oblique/lobes=N`, `disk/oblique/anisotropy=N`"},
+           {"fps", "1/s", "frames per second at 500×500",
+            "1000 / `shading_ms`; the paper's beside it where it has one", "`scene/view/method`"},
+           {"frame_to_frame_error", "1", "frame-to-frame error",
+            "colour error of the change from frame to frame, four frames of a zoom-out by 1.02 "
+            "each, "
+            "against the truth's change"},
+           {"colour_error", "1", "colour error",
+            "distance of display colours from the ground truth over the covered pixels: 64 samples "
+            "a "
+            "pixel at 500×500, at a distance 256 at 250×250",
+            "all but `all`"},
+           {"truth_stderr", "1", "standard error of the truth", "of the truth, as a colour error",
+            "`scene/view/method`, `scene/near_D/method`"},
+           {"bytes_per_px", "bytes", "bytes read per pixel",
+            "texels that the fetch reads, mean over the covered pixels; in case `all` of four "
+            "lobes",
+            "`disk/oblique/lobes=N`, `disk/oblique/anisotropy=N`, `all`"},
+           {"gmm_over_toksvig", "1", "mixtures over Toksvig, time",
+            "time ratios in turn, `disk/near` at the command line's size", "`all`"},
+           {"fournier_over_gmm", "1", "Fournier over mixtures, time"},
+           {"speedup_vs_w1", "1", "speed-up over one lane",
+            "kernel events at one lane over all lanes, in turn"},
+           {"half_over_float", "1", "",
+            "texels in half precision over single precision, time, in turn"},
+           {"fit_ms", "ms", "fit", "mixtures of a 512×512 map, four lobes, not from the cache"}},
+      .cost_ratios = {"gmm_over_toksvig"},
+      .headline = Headline{"gmm_over_toksvig", "times Toksvig's time for mixtures of normals"},
+      .curves = {{"shading_ms"}},
+      // Distances of the zoom-out are measured without a picture each.
+      .pictures = {{.kind = PictureGroup::Kind::kStrips,
+                    .heading = "Side by side",
+                    .text = "Choose two pictures and move the slider.",
+                    .truth_first = true,
+                    .differences = true,
+                    .optional = true}},
+  };
+  return spec;
+}
+
+std::string tan05DistanceView(int factor) {
+  return fmt::format("{}_{}", kTan05DistanceBase, factor);
+}
+
+std::optional<int> tan05DistanceOf(std::string_view view) {
+  for (const int factor : kTan05Distances)
+    if (view == tan05DistanceView(factor)) return factor;
+  return std::nullopt;
+}
 
 std::optional<double> tan05PaperError(std::string_view case_name) {
   return figureOf(kPaperErrors, case_name);
@@ -65,7 +136,8 @@ std::string tan05TableText(std::span<const Record> records) {
   for (const std::string& name : caseNames(records)) {
     const CaseRecords one(records, name);
     if (one.find("frame_to_frame_error") == nullptr) continue;
-    const std::string view = name.substr(0, name.rfind('/'));
+    const CaseName parts = CaseName::parse(name);
+    const std::string view = viewOf(parts).text();
     if (!last_view.empty() && view != last_view) table.addRule();
     last_view = view;
     table.addRow({name, one.text("shading_ms"), one.text("fps"), paperText(one, "fps", "{:.0f}"),
@@ -81,9 +153,10 @@ std::string tan05DistanceText(std::span<const Record> records) {
     if (std::ranges::find(names, name) == names.end()) names.push_back(name);
   };
   for (const std::string& name : caseNames(records)) {
-    if (name.find("/near_") == std::string::npos) continue;
-    add(methods, name.substr(name.rfind('/') + 1));
-    add(views, name.substr(0, name.rfind('/')));
+    const CaseName parts = CaseName::parse(name);
+    if (!tan05DistanceOf(parts.word(1))) continue;
+    add(methods, parts.word(2));
+    add(views, viewOf(parts).text());
   }
   if (views.empty()) return "";
   std::vector<std::string> header = {"error over distance"};
@@ -93,27 +166,23 @@ std::string tan05DistanceText(std::span<const Record> records) {
   for (const std::string& view : views) {
     std::vector<std::string> row = {view};
     for (const std::string& method : methods)
-      row.push_back(CaseRecords(records, view + "/" + method).text("colour_error"));
-    row.push_back(CaseRecords(records, view + "/" + methods.front()).text("truth_stderr"));
+      row.push_back(CaseRecords(records, tan05Case(view, method)).text("colour_error"));
+    row.push_back(CaseRecords(records, tan05Case(view, methods.front())).text("truth_stderr"));
     table.addRow(row);
   }
   return table.toString();
 }
 
 std::string tan05SummaryText(std::span<const Record> records) {
-  const CaseRecords all(records, "all");
-  if (all.find("gmm_over_toksvig") == nullptr) return "";
-  TextTable table({"over all", "ours", "paper"});
-  for (const SummaryRow& row : kSummary)
-    if (all.find(row.metric) != nullptr) table.addRow({row.what, all.text(row.metric), row.paper});
+  if (CaseRecords(records, kAllCase).find("gmm_over_toksvig") == nullptr) return "";
   TextTable knobs({"knob", "ms", "bytes/px", "error"});
   for (const std::string& name : caseNames(records)) {
-    if (name.find('=') == std::string::npos) continue;
+    if (CaseName::parse(name).knobs.empty()) continue;
     const CaseRecords one(records, name);
     knobs.addRow(
         {name, one.text("shading_ms"), one.text("bytes_per_px"), one.text("colour_error")});
   }
-  return table.toString() + "\n" + knobs.toString();
+  return summaryText(kSummary, records) + "\n" + knobs.toString();
 }
 
 }  // namespace glintmark

@@ -6,17 +6,25 @@
 #include <string_view>
 #include <vector>
 
-#include "host/report/record/record.h"
+#include "host/report/record/table_spec.h"
 
 namespace glintmark {
+
+/// Table "tan05": names, metrics, what the page shows.
+const TableSpec& tan05Spec();
 
 /// The paper's colour error of a case "scene/view/method", or nothing. [TAN05] Figs. 4, 7 and 8
 std::optional<double> tan05PaperError(std::string_view case_name);
 /// The paper's frames per second at 500x500 on a GeForce 6800 GT, or nothing. [TAN05] Sect. 5
 std::optional<double> tan05PaperFps(std::string_view case_name);
 
-/// Factors on a view's distance at which errors are taken, as the cases name them: "near_8".
+/// Factors on a view's distance at which errors are taken.
 inline constexpr int kTan05Distances[] = {1, 2, 4, 8, 16, 32, 64};
+/// How cases name the view at a distance: "near_8".
+std::string tan05DistanceView(int factor);
+/// Its inverse; nothing of another view.
+std::optional<int> tan05DistanceOf(std::string_view view);
+inline constexpr std::string_view kTan05DistanceBase = "near";
 
 /// The paper's time for the mixtures of a 512x512 map, four lobes: five minutes [ms].
 inline constexpr double kTan05FitMs = 300000;

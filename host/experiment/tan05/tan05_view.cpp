@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/experiment/frame_timing.h"
+#include "host/experiment/frame_truth.h"
 #include "host/experiment/tan05/tan05_table.h"
-#include "host/experiment/tao21/tao21_view.h"
-#include "host/frame/ground_truth.h"
 #include "host/report/metrics.h"
 #include "host/report/picture/picture_strip.h"
 #include "host/report/picture/tonemap.h"
+#include "host/report/record/case_name.h"
 
 namespace glintmark {
 namespace {
@@ -35,32 +36,21 @@ struct Truth {
 
 Truth measureTruth(BenchRun& run, const Tan05Scene& scene, const View& view,
                    const Tan05Settings& settings) {
-  TruthImages images = renderTruth(
-      run.device(), scene.scene, view, settings.shading, settings.truth_spp,
-      [](int) { stopIfInterrupted(); }, settings.threads, scene.textures);
-  Image off = images.mean;
-  for (std::size_t i = 0; i < off.pixels.size() / 4; ++i)
-    for (std::size_t c = 0; c < 3; ++c)
-      off.pixels[4 * i + c] += images.standard_error.pixels[3 * i + c];
+  TruthImages images =
+      truthOf(run, scene.scene, view, settings.shading, settings.truth_spp, scene.textures);
+  const Image off = oneErrorOff(images);
   const double error =
       colourError(coveredDisplay(off, scene.scene), coveredDisplay(images.mean, scene.scene));
   return {std::move(images.mean), error};
 }
 
-std::unique_ptr<FrameRenderer> makeRenderer(BenchRun& run, const Tan05Scene& scene,
-                                            const View& view, const Tan05Settings& settings,
-                                            const Tan05Method& method) {
+std::unique_ptr<FrameRenderer> methodFrame(BenchRun& run, const Tan05Scene& scene, const View& view,
+                                           const Tan05Settings& settings,
+                                           const Tan05Method& method) {
   ShadingOptions options = settings.shading;
   options.normal_method = method.method;
   options.mixture_order = method.order;
-  return std::make_unique<FrameRenderer>(run.device(), scene.scene, view, options, settings.threads,
-                                         scene.textures);
-}
-
-Image renderFrame(FrameRenderer& renderer) {
-  renderer.prepare();
-  renderer.shade();
-  return renderer.readRadiance();
+  return preparedFrame(run, scene.scene, view, options, scene.textures);
 }
 
 // The display pictures of a zoom-out by one method, whole frames.
@@ -102,10 +92,10 @@ void addErrors(BenchRun& run, const Scene& scene, const std::string& case_name, 
   const double error = isSane(image) ? colourError(coveredDisplay(image, scene),
                                                    coveredDisplay(truth.radiance, scene))
                                      : 1;
-  Record record = tan05Record(run, case_name, "colour_error", "1", {error});
+  Record record = run.record(tan05Spec(), case_name, "colour_error", {error});
   record.paper = tan05PaperError(case_name);
   records.push_back(record);
-  records.push_back(tan05Record(run, case_name, "truth_stderr", "1", {truth.standard_error}));
+  records.push_back(run.record(tan05Spec(), case_name, "truth_stderr", {truth.standard_error}));
   if (isSane(image) && truth.standard_error < 1) return;
   for (Record& bad : records) {
     bad.valid = false;
@@ -145,22 +135,14 @@ const std::vector<std::string>& tan05DistanceMetrics() {
 
 Tan05Settings tan05Settings(const BenchRun& run) {
   Tan05Settings settings;
+  settings.shading = run.shading();
   settings.shading.width_px = settings.shading.height_px = kPaperSize_px;
-  settings.shading.lanes = run.info().width;
-  settings.reps = run.options().reps;
-  settings.threads = run.session().common.threads;
   return settings;
 }
 
 Tan05Scene::Tan05Scene(BenchRun& run, const std::string& name)
     : scene(openScene(run.session().common, name)),
       textures(std::make_shared<NormalTextures>(run.device())) {}
-
-Record tan05Record(const BenchRun& run, const std::string& case_name, const std::string& metric,
-                   const std::string& unit, const std::vector<double>& samples,
-                   const std::string& note) {
-  return run.record("tan05", case_name, metric, unit, samples, note);
-}
 
 View atDistance(const View& view, double factor) {
   if (!view.orbit) {
@@ -184,32 +166,26 @@ Tan05View measureTan05View(BenchRun& run, const Tan05Scene& scene, const View& v
   std::vector<std::pair<std::string, Image>> pictures = {
       {"truth", display(truth.radiance, scene.scene)}};
   for (const Tan05Method& method : tan05Methods()) {
-    stopIfInterrupted();
-    renderers.push_back(makeRenderer(run, scene, view, settings, method));
-    images.push_back(renderFrame(*renderers.back()));
+    renderers.push_back(methodFrame(run, scene, view, settings, method));
+    images.push_back(renderers.back()->readRadiance());
     pictures.emplace_back(method.name, display(images.back(), scene.scene));
   }
-  std::vector<std::vector<double>> times_ms(renderers.size());
-  for (int rep = 0; rep < settings.reps; ++rep)
-    for (std::size_t m = 0; m < renderers.size(); ++m) {
-      times_ms[m].push_back(shadeMs(*renderers[m]));
-    }
+  const std::vector<Samples> times_ms = shadeInTurn(renderers, run.options().reps);
 
   Tan05View result;
   for (std::size_t m = 0; m < renderers.size(); ++m) {
     const Tan05Method& method = tan05Methods()[m];
-    const std::string name = fmt::format("{}/{}/{}", scene.scene.name, view.name, method.name);
+    const std::string name = CaseName{{scene.scene.name, view.name, method.name}}.text();
     const std::vector<Image> zoom = zoomFrames(scene, view, [&](const View& moved) {
-      stopIfInterrupted();
-      return renderFrame(*makeRenderer(run, scene, moved, settings, method));
+      return methodFrame(run, scene, moved, settings, method)->readRadiance();
     });
     std::vector<Record>& records = result.records[method.name];
     records.push_back(
-        tan05Record(run, name, "shading_ms", "ms", times_ms[m], "kernel events, methods in turn"));
-    records.push_back(tan05Record(run, name, "fps", "1/s", inverse(times_ms[m]), "at 500x500"));
+        run.record(tan05Spec(), name, "shading_ms", times_ms[m], "kernel events, methods in turn"));
+    records.push_back(run.record(tan05Spec(), name, "fps", inverse(times_ms[m]), "at 500x500"));
     records.back().paper = tan05PaperFps(name);
     records.push_back(
-        tan05Record(run, name, "frame_to_frame_error", "1", frameToFrame(zoom, truth_zoom)));
+        run.record(tan05Spec(), name, "frame_to_frame_error", frameToFrame(zoom, truth_zoom)));
     addErrors(run, scene.scene, name, images[m], truth, records);
   }
   result.picture = comparison(pictures);
@@ -221,10 +197,9 @@ Tan05View measureTan05Distance(BenchRun& run, const Tan05Scene& scene, const Vie
   const Truth truth = measureTruth(run, scene, view, settings);
   Tan05View result;
   for (const Tan05Method& method : tan05Methods()) {
-    stopIfInterrupted();
-    const auto renderer = makeRenderer(run, scene, view, settings, method);
-    const std::string name = fmt::format("{}/{}/{}", scene.scene.name, view_name, method.name);
-    addErrors(run, scene.scene, name, renderFrame(*renderer), truth, result.records[method.name]);
+    const auto renderer = methodFrame(run, scene, view, settings, method);
+    const std::string name = CaseName{{scene.scene.name, view_name, method.name}}.text();
+    addErrors(run, scene.scene, name, renderer->readRadiance(), truth, result.records[method.name]);
   }
   return result;
 }

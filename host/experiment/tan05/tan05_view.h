@@ -24,8 +24,6 @@ const std::vector<Tan05Method>& tan05Methods();
 struct Tan05Settings {
   ShadingOptions shading;  // 500 x 500, the paper's
   int truth_spp = 64;
-  int reps = 9;
-  int threads = 0;
 };
 Tan05Settings tan05Settings(const BenchRun& run);
 
@@ -59,10 +57,5 @@ Tan05View measureTan05View(BenchRun& run, const Tan05Scene& scene, const View& v
 /// Errors alone; `view_name` stands in the cases' names.
 Tan05View measureTan05Distance(BenchRun& run, const Tan05Scene& scene, const View& view,
                                const std::string& view_name, const Tan05Settings& settings);
-
-/// A record of this table with the run's key; `samples` not empty.
-Record tan05Record(const BenchRun& run, const std::string& case_name, const std::string& metric,
-                   const std::string& unit, const std::vector<double>& samples,
-                   const std::string& note = "");
 
 }  // namespace glintmark

@@ -6,58 +6,46 @@
 #include <cmath>
 #include <optional>
 
+#include "host/experiment/paper_gpu.h"
+#include "host/experiment/summary_table.h"
 #include "host/experiment/tao21/tao21_summary.h"
 #include "host/experiment/tao21/tao21_table.h"
 #include "host/experiment/tao21/tao21_view.h"
 #include "host/report/picture/image_io.h"
+#include "host/report/record/case_name.h"
 
 namespace glintmark {
 namespace {
 
-constexpr const char* kTable = "tao21";
-constexpr const char* kSummaryScene = "area_plane";
 // Micro roughness of Fig. 7, at one view.
 constexpr const char* kRoughnessScene = "area_glass";
 constexpr const char* kRoughnessView = "middle";
+constexpr const char* kRoughnessKnob = "roughness";
 constexpr double kRoughness[] = {0.03, 0.1, 0.3, 0.6};
 
 std::vector<std::string> knownScenes() {
-  return {"area_cloth", "area_knot", "area_glass", kSummaryScene};
+  return {"area_cloth", "area_knot", "area_glass", kTao21SummaryScene};
 }
 
 std::vector<std::string> knownViews() {
   return {"near", "middle", "far"};
 }
 
-// "scene/view/method" and perhaps "/roughness=R".
-struct CaseName {
-  std::string scene, view, method, suffix;
-
-  explicit CaseName(const std::string& name) {
-    const std::size_t first = name.find('/'), second = name.find('/', first + 1);
-    const std::size_t third = std::min(name.find('/', second + 1), name.size());
-    scene = name.substr(0, first);
-    view = name.substr(first + 1, second - first - 1);
-    method = name.substr(second + 1, third - second - 1);
-    suffix = name.substr(third);
-  }
-};
-
-void addMethods(const std::string& view, const std::string& suffix,
-                std::vector<std::string>& cases) {
+// The cases of one view, a knob with each; none for no knob.
+void addMethods(const CaseName& view, std::vector<std::string>& cases) {
   for (const std::string_view method : kTao21Methods)
-    cases.push_back(fmt::format("{}/{}{}", view, method, suffix));
+    cases.push_back(tao21Case(view, method).text());
 }
 
 std::vector<std::string> viewCases(const BenchOptions& options) {
   std::vector<std::string> cases;
   for (const std::string& scene : selectNames(knownScenes(), options.scenes)) {
-    if (scene == kSummaryScene) continue;
+    if (scene == kTao21SummaryScene) continue;
     for (const std::string& view : selectNames(knownViews(), options.views)) {
-      addMethods(scene + "/" + view, "", cases);
+      addMethods({{scene, view}}, cases);
       if (scene != kRoughnessScene || view != kRoughnessView) continue;
       for (const double roughness : kRoughness)
-        addMethods(scene + "/" + view, fmt::format("/roughness={}", roughness), cases);
+        addMethods({{scene, view}, {{kRoughnessKnob, roughness}}}, cases);
     }
   }
   return cases;
@@ -69,52 +57,50 @@ class ViewMeasurer {
   explicit ViewMeasurer(BenchRun& run) : run_(run) {}
 
   std::vector<Record> operator()(const std::string& name) {
-    const CaseName wanted(name);
-    const std::string view = wanted.scene + "/" + wanted.view + wanted.suffix;
+    const CaseName wanted = CaseName::parse(name);
+    const CaseName view{{wanted.word(0), wanted.word(1)}, wanted.knobs};
     if (view != measured_) {
-      measure(wanted);
+      measure(view);
       measured_ = view;
     }
-    return records_[wanted.method];
+    return records_[wanted.word(2)];
   }
 
  private:
+  // A view without its method, perhaps with a roughness.
   void measure(const CaseName& wanted) {
-    Scene scene = openScene(run_.session().common, wanted.scene);
-    std::string file = fmt::format("tao21_{}_{}", wanted.scene, wanted.view);
-    if (!wanted.suffix.empty()) {
-      const std::string value = wanted.suffix.substr(wanted.suffix.find('=') + 1);
-      for (Material& material : scene.materials)
-        material.glint.alpha_g = {std::stof(value), std::stof(value)};
-      file += "_roughness_" + value;
+    Scene scene = openScene(run_.session().common, wanted.word(0));
+    if (!wanted.knobs.empty()) {
+      const auto roughness = static_cast<float>(wanted.number(kRoughnessKnob));
+      for (Material& material : scene.materials) material.glint.alpha_g = {roughness, roughness};
     }
-    Tao21View view =
-        measureTao21View(run_, scene, scene.view(wanted.view), tao21Settings(run_), wanted.suffix);
-    writePng(view.picture, run_.folder() / (file + ".png"));
+    Tao21View view = measureTao21View(run_, scene, scene.view(wanted.word(1)), wanted);
+    writePng(view.picture,
+             run_.folder() / fmt::format("{}_{}.png", tao21Spec().name, wanted.fileStem()));
     records_ = std::move(view.records);
   }
 
   BenchRun& run_;
-  std::string measured_;
+  CaseName measured_;
   std::map<std::string, std::vector<Record>> records_;
 };
 
 void measure(BenchRun& run) {
   ViewMeasurer measurer(run);
-  run.measureCases(kTable, viewCases(run.options()), tao21Metrics(),
+  run.measureCases(tao21Spec().name, viewCases(run.options()), tao21Metrics(),
                    [&](const std::string& name) { return measurer(name); });
   const std::vector<std::string> scenes = selectNames(knownScenes(), run.options().scenes);
-  if (std::ranges::find(scenes, kSummaryScene) == scenes.end() || !run.options().views.empty())
+  if (std::ranges::find(scenes, kTao21SummaryScene) == scenes.end() || !run.options().views.empty())
     return;
-  run.measureCases(kTable, tao21CurveCases(), {"shading_ms"},
+  run.measureCases(tao21Spec().name, tao21CurveCases(), {"shading_ms"},
                    [&](const std::string& name) { return measureTao21Curve(run, name); });
-  run.measureCases(kTable, {"all"}, tao21SummaryMetrics(),
+  run.measureCases(tao21Spec().name, {kAllCase}, tao21SummaryMetrics(),
                    [&](const std::string&) { return measureTao21Summary(run); });
 }
 
 std::string text(const BenchRun& run) {
   const RunInfo& info = run.info();
-  const std::vector<Record> records = run.recordsOf(kTable);
+  const std::vector<Record> records = run.recordsOf(tao21Spec().name);
   return fmt::format(
              "[TAO21] Figs. 5 to 7 at {}, {} lanes, {:.0f} GFLOP/s FMA peak (the paper's GTX 1070: "
              "{:.0f},\nboth methods {:.0f} ms a frame) on {:.60}\n\n",
@@ -126,7 +112,7 @@ std::string text(const BenchRun& run) {
 }  // namespace
 
 BenchTable tao21Bench() {
-  return {kTable, knownScenes(), knownViews(), measure, text};
+  return {tao21Spec(), knownScenes(), knownViews(), measure, text};
 }
 
 }  // namespace glintmark

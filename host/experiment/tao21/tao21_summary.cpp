@@ -3,21 +3,25 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 
 #include "host/core/stopwatch.h"
+#include "host/experiment/frame_timing.h"
+#include "host/experiment/frame_truth.h"
+#include "host/experiment/paper_gpu.h"
+#include "host/experiment/summary_table.h"
 #include "host/experiment/tao21/tao21_table.h"
 #include "host/experiment/tao21/tao21_view.h"
 #include "host/fit/ltc_fit.h"
-#include "host/frame/ground_truth.h"
 #include "host/report/metrics.h"
+#include "host/report/record/case_name.h"
 
 namespace glintmark {
 namespace {
 
-constexpr double kMsPerNs = 1e-6;
+constexpr const char* kCurveView = "front";
+constexpr const char *kLightsKnob = "lights", *kVerticesKnob = "vertices";
 constexpr int kLightCounts[] = {1, 2, 4, 8};
 constexpr int kVertexCounts[] = {3, 4, 5, 6, 7, 8};
 constexpr int kMostMonteCarloSpp = 1024;
@@ -25,34 +29,15 @@ constexpr int kOneLaneReps = 5;
 // Cells of the table that is fitted for the time, per side: the time of 64 x 64 follows from it.
 constexpr int kTimedTableSize = LTC_SIZE_MIN;
 
-using Samples = std::vector<double>;
-
-// Times of two renderers in turn, as ratios first / second, and those of the first [ms].
-struct InTurn {
-  Samples ratio, first_ms;
-};
-InTurn measureInTurn(FrameRenderer& first, FrameRenderer& second, int reps) {
-  for (FrameRenderer* renderer : {&first, &second}) {
-    renderer->prepare();
-    renderer->shade();
-  }
-  InTurn result;
-  for (int rep = 0; rep < reps; ++rep) {
-    result.first_ms.push_back(shadeMs(first));
-    result.ratio.push_back(result.first_ms.back() / shadeMs(second));
-  }
-  return result;
-}
-
-Samples methodRatio(BenchRun& run, const Scene& scene, const Tao21Settings& settings,
-                    LtcMethod method) {
+// Times of a method over the original one's, in turn.
+Samples methodRatio(BenchRun& run, const Scene& scene, LtcMethod method) {
   const View& view = scene.view("near");
-  ShadingOptions options = settings.shading, original = settings.shading;
+  ShadingOptions options = run.shading(), original = options;
   options.ltc_method = method;
   original.ltc_method = LtcMethod::kOriginal;
-  FrameRenderer multi(run.device(), scene, view, options, settings.threads);
-  FrameRenderer single(run.device(), scene, view, original, settings.threads);
-  return measureInTurn(multi, single, 2 * settings.reps).ratio;
+  const auto multi = preparedFrame(run, scene, view, options);
+  const auto single = preparedFrame(run, scene, view, original);
+  return shadeInTurn(*multi, *single, 2 * run.options().reps).ratios();
 }
 
 struct EqualError {
@@ -61,35 +46,24 @@ struct EqualError {
 };
 
 // Samples that Monte Carlo needs for the error of method `exact`, and their time over its.
-EqualError monteCarloAtEqualError(BenchRun& run, const Scene& scene,
-                                  const Tao21Settings& settings) {
+EqualError monteCarloAtEqualError(BenchRun& run, const Scene& scene) {
+  const Tao21Settings settings = tao21Settings(run);
   const View& view = scene.view("middle");
-  ShadingOptions small = settings.shading;
-  small.width_px = settings.truth_size.width_px;
-  small.height_px = settings.truth_size.height_px;
-  const TruthImages truth = renderTruth(
-      run.device(), scene, view, small, settings.truth_spp, [](int) { stopIfInterrupted(); },
-      settings.threads);
-  const Image truth_row = coveredPixels(truth.mean);
-  FrameRenderer ltc(run.device(), scene, view, small, settings.threads);
-  ltc.prepare();
-  ltc.shade();
-  const double ltc_error = relMse(coveredPixels(ltc.readRadiance()), truth_row);
+  const Image truth_row =
+      coveredPixels(truthOf(run, scene, view, settings.errors, settings.truth_spp).mean);
+  const auto ltc = preparedFrame(run, scene, view, settings.errors);
+  const double ltc_error = relMse(coveredPixels(ltc->readRadiance()), truth_row);
 
-  TruthRenderer monte_carlo(run.device(), scene, view, small, settings.threads);
+  TruthRenderer monte_carlo(run.device(), scene, view, settings.errors, run.threads());
   EqualError result;
   double last_error = 0;
   for (int spp = 1; spp <= kMostMonteCarloSpp; spp *= 2) {
     stopIfInterrupted();
-    monte_carlo.prepare();
     // Samples that the truth has not used.
-    const FrameTimes times = monte_carlo.addSamples(static_cast<std::uint32_t>(settings.truth_spp),
-                                                    static_cast<std::uint32_t>(spp));
-    const Image image = monte_carlo.readMean(static_cast<std::uint32_t>(spp));
-    const double error = relMse(coveredPixels(image), truth_row);
-    const double ltc_ms = shadeMs(ltc);
+    const SampledFrame frame = sampleFrame(monte_carlo, settings.truth_spp, spp);
+    const double error = relMse(coveredPixels(frame.mean), truth_row);
     result.spp = spp;
-    result.time_ratio = times.shading_event_ns * kMsPerNs / ltc_ms;
+    result.time_ratio = frame.shading_ms / shadeMs(*ltc);
     if (error <= ltc_error) {
       result.reached = true;
       // Between two powers of two the logarithm of the error falls evenly.
@@ -141,51 +115,59 @@ const std::vector<std::string>& tao21SummaryMetrics() {
   return metrics;
 }
 
-std::vector<Record> measureTao21Summary(BenchRun& run) {
-  const Tao21Settings settings = tao21Settings(run);
-  std::vector<Record> records;
-  const auto add = [&](const char* metric, const char* unit, const Samples& samples,
-                       const std::string& note) {
-    records.push_back(tao21Record(run, "all", metric, unit, samples, note));
-  };
-  const Scene knot = openScene(run.session().common, "area_knot");
-  add("multiscale_over_original", "1", methodRatio(run, knot, settings, LtcMethod::kExact),
-      "exact over original, area_knot/near, kernel events in turn");
-  records.back().paper = 1;
-  add("tao21_over_original", "1", methodRatio(run, knot, settings, LtcMethod::kTao21),
-      "tao21 over original, area_knot/near, kernel events in turn");
-  records.back().paper = 1;
+namespace {
 
-  const Scene plane = openScene(run.session().common, "area_plane");
-  const View& view = plane.view("front");
-  ShadingOptions one_lane = settings.shading;
+// One quad, full screen: its time, what that is of the paper's, and what lanes are worth.
+void addPlane(BenchRun& run, std::vector<Record>& records) {
+  const Scene plane = openScene(run.session().common, kTao21SummaryScene);
+  const View& view = plane.view(kCurveView);
+  const int reps = run.options().reps;
+  ShadingOptions one_lane = run.shading();
   one_lane.lanes = 1;
-  FrameRenderer narrow(run.device(), plane, view, one_lane, settings.threads);
-  FrameRenderer wide(run.device(), plane, view, settings.shading, settings.threads);
-  const InTurn lanes = measureInTurn(narrow, wide, std::min(settings.reps, kOneLaneReps));
-  const bool same = relMse(narrow.readRadiance(), wide.readRadiance()) == 0;
-  Samples plane_ms, cost;
-  for (int rep = 0; rep < settings.reps; ++rep) plane_ms.push_back(shadeMs(wide));
-  const double peak_gflops = measurePeaks(run.device(), run.cache(), settings.shading.lanes).gflops;
-  for (int rep = 0; rep < settings.reps; ++rep) plane_ms.push_back(shadeMs(wide));
+  const auto narrow = preparedFrame(run, plane, view, one_lane);
+  const auto wide = preparedFrame(run, plane, view, run.shading());
+  const Samples lanes = shadeInTurn(*narrow, *wide, std::min(reps, kOneLaneReps)).ratios();
+  const bool same = relMse(narrow->readRadiance(), wide->readRadiance()) == 0;
+  Samples plane_ms = shadeTimesMs(*wide, reps), cost;
+  const double peak_gflops = measurePeaks(run.device(), run.cache(), run.info().width).gflops;
+  for (const double ms : shadeTimesMs(*wide, reps)) plane_ms.push_back(ms);
   for (const double ms : plane_ms)
-    cost.push_back(ms * peak_gflops / (kTao21FrameMs * kGtx1070PeakGflops));
-  add("plane_ms", "ms", plane_ms, "area_plane/front, kernel events");
+    cost.push_back(normalisedCost(ms, peak_gflops, kTao21FrameMs, kGtx1070PeakGflops));
+  const auto add = [&](const char* metric, const Samples& samples, const std::string& note) {
+    records.push_back(run.record(tao21Spec(), kAllCase, metric, samples, note));
+  };
+  add("plane_ms", plane_ms, "area_plane/front, kernel events");
   records.back().paper = kTao21FrameMs;
-  add("normalised_cost", "1", cost,
+  add("normalised_cost", cost,
       fmt::format("plane_ms x {:.0f} GFLOP/s / (16 ms x 6460 GFLOP/s)", peak_gflops));
   records.back().paper = 1;
-  add("speedup_vs_w1", "1", lanes.ratio, "area_plane/front, kernel events in turn");
+  add("speedup_vs_w1", lanes, "area_plane/front, kernel events in turn");
   records.back().valid = same;
   if (!same) records.back().note = "not valid: W = 1 gives another image";
+}
 
-  const EqualError equal = monteCarloAtEqualError(run, knot, settings);
+}  // namespace
+
+std::vector<Record> measureTao21Summary(BenchRun& run) {
+  std::vector<Record> records;
+  const auto add = [&](const char* metric, const Samples& samples, const std::string& note) {
+    records.push_back(run.record(tao21Spec(), kAllCase, metric, samples, note));
+  };
+  const Scene knot = openScene(run.session().common, "area_knot");
+  add("multiscale_over_original", methodRatio(run, knot, LtcMethod::kExact),
+      "exact over original, area_knot/near, kernel events in turn");
+  records.back().paper = 1;
+  add("tao21_over_original", methodRatio(run, knot, LtcMethod::kTao21),
+      "tao21 over original, area_knot/near, kernel events in turn");
+  records.back().paper = 1;
+  addPlane(run, records);
+  const EqualError equal = monteCarloAtEqualError(run, knot);
   const std::string reached =
       equal.reached ? "area_knot/middle, relMSE of method exact"
                     : "area_knot/middle; at that many samples still above the error of exact";
-  add("mc_spp_at_equal_error", "1", {equal.spp}, reached);
-  add("mc_time_at_equal_error_over_ltc", "1", {equal.time_ratio}, reached);
-  add("fit_ms", "ms", {tableFitMs()},
+  add("mc_spp_at_equal_error", {equal.spp}, reached);
+  add("mc_time_at_equal_error_over_ltc", {equal.time_ratio}, reached);
+  add("fit_ms", {tableFitMs()},
       fmt::format("table of {0}x{0} cells, times the cells of {1}x{1}", kTimedTableSize,
                   LTC_SIZE_DEFAULT));
   return records;
@@ -193,29 +175,25 @@ std::vector<Record> measureTao21Summary(BenchRun& run) {
 
 std::vector<std::string> tao21CurveCases() {
   std::vector<std::string> cases;
-  for (const int count : kLightCounts) cases.push_back(fmt::format("area_plane/lights={}", count));
-  for (const int count : kVertexCounts)
-    cases.push_back(fmt::format("area_plane/vertices={}", count));
+  const auto add = [&](const char* knob, int count) {
+    cases.push_back(CaseName{{kTao21SummaryScene}, {{knob, count}}}.text());
+  };
+  for (const int count : kLightCounts) add(kLightsKnob, count);
+  for (const int count : kVertexCounts) add(kVerticesKnob, count);
   return cases;
 }
 
 std::vector<Record> measureTao21Curve(BenchRun& run, const std::string& case_name) {
-  const Tao21Settings settings = tao21Settings(run);
-  Scene scene = openScene(run.session().common, "area_plane");
+  const CaseName name = CaseName::parse(case_name);
+  Scene scene = openScene(run.session().common, name.word(0));
   const AreaLight lamp = scene.area_lights.front();
-  const int count = std::stoi(case_name.substr(case_name.find('=') + 1));
-  if (case_name.find("lights=") != std::string::npos) {
-    scene.area_lights.assign(static_cast<std::size_t>(count), lamp);
-  } else {
-    scene.area_lights = {regularLight(lamp, count)};
-  }
-  FrameRenderer renderer(run.device(), scene, scene.view("front"), settings.shading,
-                         settings.threads);
-  renderer.prepare();
-  renderer.shade();
-  Samples times_ms;
-  for (int rep = 0; rep < settings.reps; ++rep) times_ms.push_back(shadeMs(renderer));
-  return {tao21Record(run, case_name, "shading_ms", "ms", times_ms, "kernel events")};
+  if (name.value(kLightsKnob))
+    scene.area_lights.assign(static_cast<std::size_t>(name.number(kLightsKnob)), lamp);
+  else
+    scene.area_lights = {regularLight(lamp, static_cast<int>(name.number(kVerticesKnob)))};
+  const auto renderer = preparedFrame(run, scene, scene.view(kCurveView), run.shading());
+  return {run.record(tao21Spec(), case_name, "shading_ms",
+                     shadeTimesMs(*renderer, run.options().reps), "kernel events")};
 }
 
 }  // namespace glintmark

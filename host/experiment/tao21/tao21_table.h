@@ -5,15 +5,19 @@
 #include <string>
 #include <string_view>
 
-#include "host/report/record/record.h"
+#include "host/report/record/table_spec.h"
 
 namespace glintmark {
+
+/// Table "tao21": names, metrics, what the page shows.
+const TableSpec& tao21Spec();
+
+/// The scene of the figures that are about no single view.
+inline constexpr const char* kTao21SummaryScene = "area_plane";
 
 /// Both methods take this long for a frame of Fig. 6 at 1920x1080 on a GeForce GTX 1070. [TAO21]
 /// Sect. 4.2
 inline constexpr double kTao21FrameMs = 16;
-/// Peak of that GPU, 1920 lanes x 2 x 1.683 GHz boost [GFLOP/s].
-inline constexpr double kGtx1070PeakGflops = 6460;
 
 /// In the order of enum LtcMethod.
 inline constexpr std::array<std::string_view, 3> kTao21Methods = {"original", "tao21", "exact"};

@@ -2,20 +2,19 @@
 #pragma once
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "host/core/image.h"
 #include "host/experiment/bench_run.h"
-#include "host/frame/frame_renderer.h"
+#include "host/report/record/case_name.h"
 
 namespace glintmark {
 
 struct Tao21Settings {
   ShadingOptions shading;  // for the times
-  ImageSize truth_size;    // for the errors
+  ShadingOptions errors;   // for the errors, smaller
   int truth_spp = 1024;    // the paper's
-  int reps = 9;
-  int threads = 0;
 };
 
 /// Settings of a bench run: errors are taken at a width of at most kTruthWidth_px.
@@ -32,22 +31,11 @@ struct Tao21View {
   Image picture;
 };
 
-/// Measures scene/view; the case of a method is scene/view/method, and then `suffix`.
+/// The case of a method in a view, which is named by scene, view and perhaps a knob.
+CaseName tao21Case(const CaseName& view, std::string_view method);
+
+/// Measures a view of `scene`, whose cases are those of `name`.
 Tao21View measureTao21View(BenchRun& run, const Scene& scene, const View& view,
-                           const Tao21Settings& settings, const std::string& suffix);
-
-/// A record of this table with the run's key; `samples` not empty.
-Record tao21Record(const BenchRun& run, const std::string& case_name, const std::string& metric,
-                   const std::string& unit, const std::vector<double>& samples,
-                   const std::string& note = "");
-
-/// The pixels that `image` covers (alpha 1), in one row of RGB.
-Image coveredPixels(const Image& image);
-
-/// No value is negative or not finite.
-bool isSane(const Image& image);
-
-/// Shades once; kernel event time [ms]. Throws Interrupted after Ctrl-C.
-double shadeMs(FrameRenderer& renderer);
+                           const CaseName& name);
 
 }  // namespace glintmark

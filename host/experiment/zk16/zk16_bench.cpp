@@ -5,15 +5,15 @@
 #include <algorithm>
 #include <optional>
 
+#include "host/experiment/paper_gpu.h"
 #include "host/experiment/zk16/zk16_case.h"
 #include "host/experiment/zk16/zk16_table.h"
 #include "host/report/picture/heatmap.h"
 #include "host/report/picture/image_io.h"
+#include "host/report/record/case_name.h"
 
 namespace glintmark {
 namespace {
-
-constexpr const char* kTable = "zk16";
 
 std::vector<std::string> knownScenes() {
   std::vector<std::string> scenes;
@@ -27,22 +27,11 @@ std::vector<std::string> knownViews() {
 }
 
 std::vector<Record> measureView(BenchRun& run, const Scene& scene, const std::string& view) {
-  const BenchOptions& options = run.options();
-  const ImageSize size = parseSize(options.size);
-  Zk16Settings settings;
-  settings.shading = {.width_px = size.width_px,
-                      .height_px = size.height_px,
-                      .lanes = run.info().width,
-                      .method = parseMethod(options.method)};
-  settings.reps = options.reps;
-  settings.w1_reps = std::min(options.reps, settings.w1_reps);
-  settings.threads = run.session().common.threads;
-  Zk16Case measured =
-      measureZk16Case(run.device(), run.cache(), scene, scene.view(view), settings, run.key());
+  Zk16Case measured = measureZk16Case(run, scene, scene.view(view));
   const Image picture = heatmapPicture(
       measured.counted.cells, {.title = fmt::format("{}/{}, cells per pixel", scene.name, view),
                                .guard_hits = measured.counted.counts.guard_hits});
-  writePng(picture, run.folder() / fmt::format("cells_{}_{}.png", scene.name, view));
+  writePng(picture, run.folder() / heatmapFile({{scene.name, view}}));
   return std::move(measured.records);
 }
 
@@ -50,13 +39,13 @@ void measure(BenchRun& run) {
   std::vector<std::string> cases;
   for (const std::string& scene : selectNames(knownScenes(), run.options().scenes))
     for (const std::string& view : selectNames(knownViews(), run.options().views))
-      cases.push_back(scene + "/" + view);
+      cases.push_back(CaseName{{scene, view}}.text());
   std::optional<Scene> scene;  // loaded only if some view of it is left to measure
-  run.measureCases(kTable, cases, zk16Metrics(), [&](const std::string& name) {
-    const std::size_t slash = name.find('/');
-    const std::string scene_name = name.substr(0, slash);
-    if (!scene || scene->name != scene_name) scene = openScene(run.session().common, scene_name);
-    return measureView(run, *scene, name.substr(slash + 1));
+  run.measureCases(zk16Spec().name, cases, zk16Metrics(), [&](const std::string& name) {
+    const CaseName wanted = CaseName::parse(name);
+    if (!scene || scene->name != wanted.word(0))
+      scene = openScene(run.session().common, wanted.word(0));
+    return measureView(run, *scene, wanted.word(1));
   });
 }
 
@@ -74,7 +63,7 @@ std::string staticCountsText(const std::vector<Record>& records, int lanes) {
 
 std::string text(const BenchRun& run) {
   const RunInfo& info = run.info();
-  const std::vector<Record> records = run.recordsOf(kTable);
+  const std::vector<Record> records = run.recordsOf(zk16Spec().name);
   return fmt::format(
              "[ZK16] Table 1 at {}, {} lanes, {:.0f} GFLOP/s FMA peak (the paper's GTX 980: "
              "{:.0f})\non {:.90}\n\n",
@@ -86,7 +75,7 @@ std::string text(const BenchRun& run) {
 }  // namespace
 
 BenchTable zk16Bench() {
-  return {kTable, knownScenes(), knownViews(), measure, text};
+  return {zk16Spec(), knownScenes(), knownViews(), measure, text};
 }
 
 }  // namespace glintmark

@@ -4,34 +4,26 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
-#include "host/core/statistics.h"
-#include "host/experiment/bench_run.h"
+#include "host/experiment/frame_timing.h"
+#include "host/experiment/paper_gpu.h"
 #include "host/experiment/zk16/zk16_table.h"
 #include "host/ocl/static_counts.h"
 #include "host/report/metrics.h"
+#include "host/report/record/case_name.h"
 
 namespace glintmark {
 namespace {
 
-constexpr double kMsPerNs = 1e-6;
+constexpr int kOneLaneReps = 3;  // one lane is about ten times as slow
 // The counting build does the same arithmetic; other lane counts may round a little differently
 // where the compiler reorders nothing but the device's maths functions differ.
 constexpr double kSameImageRelMse = 1e-9;
-
-// Samples of one quantity over the repetitions.
-using Samples = std::vector<double>;
 
 Samples scaled(const Samples& samples, double factor) {
   Samples result = samples;
   for (double& sample : result) sample *= factor;
   return result;
-}
-
-std::size_t badValueCount(const Image& image) {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(image.pixels, [](float v) { return !(std::isfinite(v) && v >= 0); }));
 }
 
 struct FrameSamples {
@@ -71,19 +63,20 @@ PrepareSamples measurePrepare(FrameRenderer& renderer, int reps) {
 // One view's renderers and what has been learned about them.
 class CaseMeasurement {
  public:
-  CaseMeasurement(Device& device, ProgramCache& cache, const Scene& scene, const View& view,
-                  const Zk16Settings& settings, const std::map<std::string, std::string>& config)
-      : device_(device), cache_(cache), scene_(scene), view_(view), settings_(settings) {
-    base_.table = "zk16";
-    base_.case_ = scene.name + "/" + view.name;
-    base_.config = config;
+  CaseMeasurement(BenchRun& run, const Scene& scene, const View& view)
+      : run_(run),
+        scene_(scene),
+        view_(view),
+        name_(CaseName{{scene.name, view.name}}.text()),
+        shading_(run.shading()) {
+    shading_.method = run.method();
   }
 
   Zk16Case run();
 
  private:
-  FrameRenderer makeRenderer(const ShadingOptions& options) const {
-    return FrameRenderer(device_, scene_, view_, options, settings_.threads);
+  std::unique_ptr<FrameRenderer> frame(const ShadingOptions& options) const {
+    return preparedFrame(run_, scene_, view_, options);
   }
   void checkImages(const Image& glint, const Image& smooth);
   void checkSame(const Image& image, const Image& reference, const char* what);
@@ -91,34 +84,30 @@ class CaseMeasurement {
   void addShading(const FrameSamples& frames, double peak_gflops);
   void addFacts(const FrameRenderer& glint, const PrepareSamples& prepare);
   void addStaticCounts(const FrameRenderer& glint);
-  void add(const std::string& metric, const std::string& unit, const Samples& samples,
-           const std::string& note = "", std::optional<double> paper = std::nullopt);
+  void add(const std::string& metric, const Samples& samples, const std::string& note = "",
+           std::optional<double> paper = std::nullopt);
   std::optional<double> paperMs() const;
 
-  Device& device_;
-  ProgramCache& cache_;
+  BenchRun& run_;
   const Scene& scene_;
   const View& view_;
-  const Zk16Settings& settings_;
-  Record base_;
+  std::string name_;
+  ShadingOptions shading_;
+  std::string kernels_;
   Zk16Case result_;
 };
 
-void CaseMeasurement::add(const std::string& metric, const std::string& unit,
-                          const Samples& samples, const std::string& note,
-                          std::optional<double> paper) {
-  Record record = base_;
-  record.metric = metric;
-  record.unit = unit;
-  record.value = summarize(samples);
-  record.note = note;
+void CaseMeasurement::add(const std::string& metric, const Samples& samples,
+                          const std::string& note, std::optional<double> paper) {
+  Record record = run_.record(zk16Spec(), name_, metric, samples, note);
+  record.config["kernels"] = kernels_;
   record.paper = paper;
   result_.records.push_back(std::move(record));
 }
 
 // The paper's figures are for 1920x1080 only.
 std::optional<double> CaseMeasurement::paperMs() const {
-  const bool full_size = settings_.shading.width_px == 1920 && settings_.shading.height_px == 1080;
+  const bool full_size = shading_.width_px == 1920 && shading_.height_px == 1080;
   return full_size ? zk16PaperMs(scene_.name, view_.name) : std::nullopt;
 }
 
@@ -149,46 +138,40 @@ void CaseMeasurement::checkImages(const Image& glint, const Image& smooth) {
 
 // The same kernel with one lane and with all, in turn; by event times.
 Samples CaseMeasurement::measureSpeedup(FrameRenderer& glint, const Image& reference) {
-  ShadingOptions one_lane = settings_.shading;
+  ShadingOptions one_lane = shading_;
   one_lane.lanes = 1;
-  FrameRenderer narrow = makeRenderer(one_lane);
-  narrow.prepare();
-  narrow.shade();
-  checkSame(narrow.readRadiance(), reference, "W = 1");
-  Samples speedup;
-  for (int rep = 0; rep < settings_.w1_reps; ++rep) {
-    stopIfInterrupted();
-    const double narrow_ns = narrow.shade().shading_event_ns;
-    speedup.push_back(narrow_ns / glint.shade().shading_event_ns);
-  }
-  return speedup;
+  const auto narrow = frame(one_lane);
+  checkSame(narrow->readRadiance(), reference, "W = 1");
+  return shadeInTurn(*narrow, glint, std::min(run_.options().reps, kOneLaneReps)).ratios();
 }
 
 void CaseMeasurement::addStaticCounts(const FrameRenderer& glint) {
   const auto config = std::ranges::find_if(glint.configs(), &KernelConfig::glint);
   if (config == glint.configs().end()) return;
-  const std::optional<StaticCounts> counts = staticCounts(cache_.get("shade.cl", *config), "shade");
+  const std::optional<StaticCounts> counts =
+      staticCounts(run_.cache().get("shade.cl", *config), "shade");
   if (!counts) return;
   const std::string note =
       fmt::format("machine instructions of the compiled kernel, {} lanes each", config->width);
-  add("kernel_instructions", "instructions", {static_cast<double>(counts->kernel_instructions)},
-      note, kZk16ShaderInstructions);
-  add("cell_loop_instructions", "instructions",
-      {static_cast<double>(counts->cell_loop_instructions)}, note, kZk16LoopInstructions);
+  add("kernel_instructions", {static_cast<double>(counts->kernel_instructions)}, note,
+      kZk16ShaderInstructions);
+  add("cell_loop_instructions", {static_cast<double>(counts->cell_loop_instructions)}, note,
+      kZk16LoopInstructions);
 }
 
 void CaseMeasurement::addShading(const FrameSamples& frames, double peak_gflops) {
   const CellCounts& counts = result_.counted.counts;
   const double cells = counts.mean * static_cast<double>(counts.glint_px);
-  add("shading_ms", "ms", scaled(frames.difference_ns, kMsPerNs),
+  add("shading_ms", scaled(frames.difference_ns, kMsPerNs),
       "frame with glints minus frame without, in turn", paperMs());
-  add("shading_event_ms", "ms", scaled(frames.event_ns, kMsPerNs), "kernel events, with glints");
-  add("frame_with_ms", "ms", scaled(frames.with_ns, kMsPerNs), "enqueue to finish");
-  add("frame_without_ms", "ms", scaled(frames.without_ns, kMsPerNs), "enqueue to finish");
-  add("ns_per_cell", "ns", scaled(frames.difference_ns, cells > 0 ? 1 / cells : 0));
+  add("shading_event_ms", scaled(frames.event_ns, kMsPerNs), "kernel events, with glints");
+  add("frame_with_ms", scaled(frames.with_ns, kMsPerNs), "enqueue to finish");
+  add("frame_without_ms", scaled(frames.without_ns, kMsPerNs), "enqueue to finish");
+  add("ns_per_cell", scaled(frames.difference_ns, cells > 0 ? 1 / cells : 0));
   if (const std::optional<double> paper_ms = paperMs()) {
-    add("normalised_cost", "1",
-        scaled(frames.difference_ns, kMsPerNs * normalisedCost(1, peak_gflops, *paper_ms)),
+    add("normalised_cost",
+        scaled(frames.difference_ns,
+               kMsPerNs * normalisedCost(1, peak_gflops, *paper_ms, kGtx980PeakGflops)),
         "shading_ms x our peak / (paper's ms x 4980 GFLOP/s)");
   }
 }
@@ -196,69 +179,57 @@ void CaseMeasurement::addShading(const FrameSamples& frames, double peak_gflops)
 // What is counted or timed outside the frames.
 void CaseMeasurement::addFacts(const FrameRenderer& glint, const PrepareSamples& prepare) {
   const CellCounts& counts = result_.counted.counts;
-  const double pixels =
-      static_cast<double>(settings_.shading.width_px) * settings_.shading.height_px;
-  add("cells_min", "cells", {static_cast<double>(counts.min)});
-  add("cells_mean", "cells", {counts.mean});
-  add("cells_max", "cells", {static_cast<double>(counts.max)});
-  add("guard_hits", "pixels", {static_cast<double>(counts.guard_hits)});
-  add("raster_ms", "ms", scaled(prepare.raster_ns, kMsPerNs));
-  add("upload_ms", "ms", scaled(prepare.upload_ns, kMsPerNs));
-  add("readback_ms", "ms", scaled(prepare.readback_ns, kMsPerNs));
-  add("build_ms", "ms", {glint.buildNs() * kMsPerNs});
-  add("first_enqueue_ms", "ms", {glint.firstEnqueueNs() * kMsPerNs});
-  add("triangles", "triangles", {static_cast<double>(scene_.mesh.triangleCount())});
-  add("covered_px", "pixels", {static_cast<double>(glint.planes().covered_px)});
-  add("buffer_bytes_per_px", "bytes", {static_cast<double>(glint.bufferBytes()) / pixels});
+  const double pixels = static_cast<double>(shading_.width_px) * shading_.height_px;
+  add("cells_min", {static_cast<double>(counts.min)});
+  add("cells_mean", {counts.mean});
+  add("cells_max", {static_cast<double>(counts.max)});
+  add("guard_hits", {static_cast<double>(counts.guard_hits)});
+  add("raster_ms", scaled(prepare.raster_ns, kMsPerNs));
+  add("upload_ms", scaled(prepare.upload_ns, kMsPerNs));
+  add("readback_ms", scaled(prepare.readback_ns, kMsPerNs));
+  add("build_ms", {glint.buildNs() * kMsPerNs});
+  add("first_enqueue_ms", {glint.firstEnqueueNs() * kMsPerNs});
+  add("triangles", {static_cast<double>(scene_.mesh.triangleCount())});
+  add("covered_px", {static_cast<double>(glint.planes().covered_px)});
+  add("buffer_bytes_per_px", {static_cast<double>(glint.bufferBytes()) / pixels});
 }
 
 Zk16Case CaseMeasurement::run() {
-  const ShadingOptions& shading = settings_.shading;
-  ShadingOptions smooth_options = shading;
+  ShadingOptions smooth_options = shading_;
   smooth_options.glints = false;
-  FrameRenderer glint = makeRenderer(shading), smooth = makeRenderer(smooth_options);
-  glint.prepare();
-  smooth.prepare();
-  glint.shade();
-  smooth.shade();
-  stopIfInterrupted();
+  const auto glint_frame = frame(shading_), smooth_frame = frame(smooth_options);
+  FrameRenderer &glint = *glint_frame, &smooth = *smooth_frame;
 
   const Image radiance = glint.readRadiance();
   checkImages(radiance, smooth.readRadiance());
-  ShadingOptions counting = shading;
+  ShadingOptions counting = shading_;
   counting.count_cells = true;
   {
-    FrameRenderer counter = makeRenderer(counting);
-    counter.prepare();
-    counter.shade();
-    checkSame(counter.readRadiance(), radiance, "the counting build");
-    result_.counted = {counter.readCells(), counter.cellCounts()};
+    const auto counter = frame(counting);
+    checkSame(counter->readRadiance(), radiance, "the counting build");
+    result_.counted = {counter->readCells(), counter->cellCounts()};
   }
   stopIfInterrupted();
-
-  std::string options;
-  for (const KernelConfig& config : glint.configs()) {
-    options += (options.empty() ? "" : " | ") + buildOptions(config);
-  }
-  base_.config["kernels"] = options;
+  kernels_ = kernelOptions(glint);
 
   // The peak in the middle of the frames, since the machine's speed may drift.
   FrameSamples frames;
-  measureShading(glint, smooth, (settings_.reps + 1) / 2, frames);
-  const DevicePeaks peaks = measurePeaks(device_, cache_, shading.lanes);
-  measureShading(glint, smooth, settings_.reps / 2, frames);
-  const PrepareSamples prepare = measurePrepare(glint, settings_.reps);
+  const int reps = run_.options().reps;
+  measureShading(glint, smooth, (reps + 1) / 2, frames);
+  const DevicePeaks peaks = measurePeaks(run_.device(), run_.cache(), shading_.lanes);
+  measureShading(glint, smooth, reps / 2, frames);
+  const PrepareSamples prepare = measurePrepare(glint, reps);
 
   addShading(frames, peaks.gflops);
-  if (shading.lanes > 1) {
-    add("speedup_vs_w1", "1", measureSpeedup(glint, radiance),
-        fmt::format("kernel events at {}x{}, in turn", shading.width_px, shading.height_px));
+  if (shading_.lanes > 1) {
+    add("speedup_vs_w1", measureSpeedup(glint, radiance),
+        fmt::format("kernel events at {}x{}, in turn", shading_.width_px, shading_.height_px));
   } else {
-    add("speedup_vs_w1", "1", {1}, "the device runs one lane");
+    add("speedup_vs_w1", {1}, "the device runs one lane");
   }
   addFacts(glint, prepare);
-  add("peak_gflops", "GFLOP/s", {peaks.gflops}, "in the middle of the frames");
-  add("peak_gbs", "GB/s", {peaks.gbs}, "in the middle of the frames");
+  add("peak_gflops", {peaks.gflops}, "in the middle of the frames");
+  add("peak_gbs", {peaks.gbs}, "in the middle of the frames");
   addStaticCounts(glint);
 
   for (Record& record : result_.records) {
@@ -283,10 +254,8 @@ const std::vector<std::string>& zk16Metrics() {
   return metrics;
 }
 
-Zk16Case measureZk16Case(Device& device, ProgramCache& cache, const Scene& scene, const View& view,
-                         const Zk16Settings& settings,
-                         const std::map<std::string, std::string>& config) {
-  return CaseMeasurement(device, cache, scene, view, settings, config).run();
+Zk16Case measureZk16Case(BenchRun& run, const Scene& scene, const View& view) {
+  return CaseMeasurement(run, scene, view).run();
 }
 
 }  // namespace glintmark

@@ -1,22 +1,12 @@
 // Measures one view of [ZK16] Table 1.
 #pragma once
-#include <map>
 #include <string>
 #include <vector>
 
+#include "host/experiment/bench_run.h"
 #include "host/experiment/count_cells.h"
-#include "host/frame/frame_renderer.h"
-#include "host/ocl/compute.h"
-#include "host/report/record/record.h"
 
 namespace glintmark {
-
-struct Zk16Settings {
-  ShadingOptions shading;  // size, lanes, method
-  int reps = 9;            // of everything but W = 1
-  int w1_reps = 3;         // one lane is about ten times as slow
-  int threads = 0;
-};
 
 struct Zk16Case {
   std::vector<Record> records;  // table "zk16", case "scene/view"
@@ -27,14 +17,12 @@ struct Zk16Case {
 /// Metrics that every case has, in the order of its records.
 const std::vector<std::string>& zk16Metrics();
 
-/// Measures one view. `config` goes into every record beside the kernels' build options. Shading
-/// time is the median over repetitions of the frame with glints minus the frame without, measured
+/// Measures one view. The records' configurations have the kernels' build options too. Shading time
+/// is the median over repetitions of the frame with glints minus the frame without, measured
 /// in turn. Records are valid only if, in the same run, the radiance is finite and not negative,
 /// the counting build and W = 1 give the same image, and the mean radiance is that of smooth lobes
 /// within kZk16MeanBound. Throws Interrupted after Ctrl-C.
-Zk16Case measureZk16Case(Device& device, ProgramCache& cache, const Scene& scene, const View& view,
-                         const Zk16Settings& settings,
-                         const std::map<std::string, std::string>& config);
+Zk16Case measureZk16Case(BenchRun& run, const Scene& scene, const View& view);
 
 /// Glints scatter the light of the smooth lobe over pixels; the mean over a frame keeps it but for
 /// the sampling noise of few bright pixels.

@@ -7,9 +7,12 @@
 #include <string_view>
 #include <vector>
 
-#include "host/report/record/record.h"
+#include "host/report/record/table_spec.h"
 
 namespace glintmark {
+
+/// Table "zk16": names, metrics, what the page shows.
+const TableSpec& zk16Spec();
 
 /// One row of [ZK16] Table 1: milliseconds at 1920x1080 on a GeForce GTX 980.
 struct Zk16PaperRow {
@@ -23,17 +26,12 @@ inline constexpr std::array<Zk16PaperRow, 5> kZk16Table1 = {{{"screen_plane", 0.
                                                              {"sponza", 3.0, 5.9}}};
 inline constexpr std::array<std::string_view, 2> kZk16Views = {"steep", "grazing"};
 
-/// Peak of the paper's GPU, 2048 lanes x 2 x 1.216 GHz boost [GFLOP/s].
-inline constexpr double kGtx980PeakGflops = 4980;
 /// Static instructions of the paper's shader, and of its innermost loop. [ZK16] Sect. 5
 inline constexpr int kZk16ShaderInstructions = 412;
 inline constexpr int kZk16LoopInstructions = 204;
 
 /// The paper's milliseconds, or nothing if the paper has no such scene or view.
 std::optional<double> zk16PaperMs(std::string_view scene, std::string_view view);
-
-/// How the device compares with the paper's GPU per unit of peak speed; 1 is as efficient.
-double normalisedCost(double ours_ms, double our_peak_gflops, double paper_ms);
 
 /// Table 1: paper and ours side by side, with cost figures; cases in the order of the records.
 /// Figures whose records are not valid carry a "!".

@@ -6,7 +6,6 @@
 
 #include "host/report/page/chart_section.h"
 #include "host/report/page/page_resources.h"
-#include "host/report/page/table_names.h"
 #include "host/report/page/table_section.h"
 #include "host/report/record/case_records.h"
 #include "host/report/record/text_table.h"
@@ -29,54 +28,40 @@ std::string factsHtml(const RunInfo& run) {
   return html + "</dl>\n";
 }
 
-struct Headline {
-  const char *table, *metric, *text;
-};
-// What one figure says about a table; of several cases, from the least to the most.
-constexpr Headline kHeadlines[] = {
-    {"zk16", "normalised_cost", "cost of glints per FLOP, the paper's GPU being 1"},
-    {"tan05", "gmm_over_toksvig", "times Toksvig's time for mixtures of normals"},
-    {"tao21", "multiscale_over_original", "times the original's time for multi-scale area lights"},
-    {"msbrdf", "runtime_ms", "ms more for multiple scattering, full screen"},
-    {"effects", "uber_over_specialised", "times as long if every effect is compiled in"},
-    {"accuracy", "pareto", "settings on the front of accuracy against time"},
-};
+// A figure that the headline's cases have in common, or their range.
+std::string headlineFigure(const Headline& headline, const std::vector<double>& values) {
+  if (headline.counts_ones) return std::to_string(std::ranges::count(values, 1.0));
+  const auto [least, most] = std::ranges::minmax(values);
+  return compactNumber(least) + (most > least ? " … " + compactNumber(most) : "");
+}
 
-std::string headlinesHtml(std::span<const Record> records) {
+std::string headlinesHtml(std::span<const TableSpec> tables, std::span<const Record> records) {
   std::string html;
-  for (const Headline& headline : kHeadlines) {
+  for (const TableSpec& table : tables) {
+    if (!table.headline) continue;
     std::vector<double> values;
     for (const Record& record : records)
-      if (record.table == headline.table && record.metric == headline.metric && record.valid)
+      if (record.table == table.name && record.metric == table.headline->metric && record.valid)
         values.push_back(record.value.median);
     if (values.empty()) continue;
-    const auto [least, most] = std::ranges::minmax(values);
-    std::string figure = compactNumber(least);
-    if (std::string_view(headline.metric) == "pareto")
-      figure = std::to_string(std::ranges::count(values, 1.0));
-    else if (most > least)
-      figure += " … " + compactNumber(most);
     html += fmt::format("<a class=\"tile\" href=\"#{}\"><b>{}</b><span>{}</span></a>\n",
-                        headline.table, figure, headline.text);
+                        escapeHtml(table.name), headlineFigure(*table.headline, values),
+                        table.headline->text);
   }
   return html.empty() ? "" : "<div class=\"tiles\">\n" + html + "</div>\n";
 }
 
-std::string sectionHtml(const std::string& table, std::span<const Record> records,
+std::string sectionHtml(const TableSpec& table, std::span<const Record> records,
                         PictureShelf& shelf) {
-  const TableName name = tableName(table);
   const std::string paper = paperTablesHtml(table, records);
-  std::string html =
-      fmt::format("<section>\n<h2 id=\"{}\">{}</h2>\n", escapeHtml(table), escapeHtml(name.title));
-  if (!name.about.empty()) html += fmt::format("<p>{}</p>\n", escapeHtml(name.about));
-  if (!name.source.empty() && !paper.empty())
-    html += fmt::format("<p class=\"source\">Paper: {}</p>\n", escapeHtml(name.source));
+  std::string html = fmt::format("<section>\n<h2 id=\"{}\">{}</h2>\n", escapeHtml(table.name),
+                                 escapeHtml(table.title));
+  if (!table.about.empty()) html += fmt::format("<p>{}</p>\n", escapeHtml(table.about));
+  if (!table.source.empty() && !paper.empty())
+    html += fmt::format("<p class=\"source\">Paper: {}</p>\n", escapeHtml(table.source));
   html += invalidHtml(records) + paper;
-  std::string own;
-  if (table == "accuracy") own = accuracyHtml(records);
-  if (table == "effects") own = effectsHtml(records);
-  html += own + timeBarsHtml(records);
-  if (table != "accuracy") html += curvesHtml(table, records);
+  const std::string own = table.section == nullptr ? "" : table.section(records);
+  html += own + timeBarsHtml(table.frame_parts, records) + curvesHtml(table, records);
   html += shelf.tablePictures(table, records);
   // What no part of the page is made for stands open.
   return html + allFiguresHtml(records, paper.empty() && own.empty()) + "</section>\n";
@@ -92,8 +77,8 @@ std::string recordsJson(std::span<const Record> records) {
   return safe;
 }
 
-std::string headerHtml(const Results& results, const std::vector<std::string>& tables,
-                       const std::string& source) {
+std::string headerHtml(const Results& results, std::span<const TableSpec> known,
+                       const std::vector<std::string>& tables, const std::string& source) {
   const std::string link = escapeHtml(source);
   std::string html = fmt::format(
       "<header>\n<h1>glintmark</h1>\n<p class=\"lead\">What micro-detail shading costs on "
@@ -103,18 +88,18 @@ std::string headerHtml(const Results& results, const std::vector<std::string>& t
       "</details>\n<p class=\"source\">{} records: <a href=\"{}\">{}</a>. A figure with "
       "<span class=\"bad\">!</span> failed the check of its run.</p>\n</header>\n<nav "
       "aria-label=\"Sections\">",
-      escapeHtml(results.run.device), headlinesHtml(results.records), factsHtml(results.run),
+      escapeHtml(results.run.device), headlinesHtml(known, results.records), factsHtml(results.run),
       results.records.size(), link, link);
   for (const std::string& table : tables)
     html += fmt::format("<a href=\"#{}\">{}</a>", escapeHtml(table),
-                        escapeHtml(tableName(table).title));
+                        escapeHtml(tableOf(known, table).title));
   return html + "</nav>\n";
 }
 
 }  // namespace
 
-std::string htmlReport(const Results& results, std::span<const ReportPicture> pictures,
-                       const std::string& source) {
+std::string htmlReport(const Results& results, std::span<const TableSpec> known,
+                       std::span<const ReportPicture> pictures, const std::string& source) {
   std::string html =
       "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
@@ -123,7 +108,7 @@ std::string htmlReport(const Results& results, std::span<const ReportPicture> pi
       escapeHtml(results.run.device) + "</title>\n<style>\n";
   html += pageCss();
   const std::vector<std::string> tables = distinctValues(results.records, &Record::table);
-  html += "</style>\n</head>\n<body>\n" + headerHtml(results, tables, source) + "<main>\n";
+  html += "</style>\n</head>\n<body>\n" + headerHtml(results, known, tables, source) + "<main>\n";
 
   std::string end = "</main>\n<script type=\"application/json\" id=\"records\">" +
                     recordsJson(results.records) + "</script>\n<script>\n";
@@ -139,7 +124,7 @@ std::string htmlReport(const Results& results, std::span<const ReportPicture> pi
     std::vector<Record> records;
     std::ranges::copy_if(results.records, std::back_inserter(records),
                          [&](const Record& record) { return record.table == table; });
-    html += sectionHtml(table, records, shelf);
+    html += sectionHtml(tableOf(known, table), records, shelf);
   }
   return html + shelf.otherPictures() + end;
 }

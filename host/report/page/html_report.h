@@ -6,6 +6,7 @@
 #include "host/report/page/html_text.h"
 #include "host/report/page/pictures.h"
 #include "host/report/record/records.h"
+#include "host/report/record/table_spec.h"
 
 namespace glintmark {
 
@@ -14,9 +15,11 @@ namespace glintmark {
 inline constexpr std::size_t kMostPageBytes = 10'000'000;
 
 /// The page as HTML. It loads nothing: style, script, charts' library and pictures are part of it.
-/// Tables and pictures show without script. `source` names the results file, which is linked.
-std::string htmlReport(const Results& results, std::span<const ReportPicture> pictures,
-                       const std::string& source);
+/// Tables and pictures show without script. Headlines stand in the order of `known`; a table that
+/// is not among them is shown by its records alone. `source` names the results file, which is
+/// linked.
+std::string htmlReport(const Results& results, std::span<const TableSpec> known,
+                       std::span<const ReportPicture> pictures, const std::string& source);
 
 /// Script elements of every page: its records, Chart.js, its own.
 inline constexpr std::size_t kPageScripts = 3;

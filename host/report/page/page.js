@@ -93,24 +93,27 @@
     },
   };
 
-  // Cases "effect/knob=value": error over time, a series per knob, the front on top.
-  const accuracyChart = (canvas) => {
+  // Cases "group/knob=value": error over cost, a series per knob, the front on top. Which metrics
+  // these are and what they are called stands with the canvas.
+  const tradeOffChart = (canvas) => {
+    const { table, prefix, cost, error, noise: noiseMetric, optimal, costTitle, errorTitle, noiseTitle, tip } =
+      canvas.dataset;
     const points = new Map();
     for (const r of records) {
-      if (r.table !== "accuracy" || !r.case.startsWith(canvas.dataset.effect + "/")) continue;
-      const name = r.case.slice(canvas.dataset.effect.length + 1);
+      if (r.table !== table || !r.case.startsWith(prefix)) continue;
+      const name = r.case.slice(prefix.length);
       if (!points.has(name)) points.set(name, { name, knob: name.split("=")[0] });
       const point = points.get(name);
       point[r.metric] = r.median;
       if (r.config && r.config.role) point.role = r.config.role;
     }
     const all = [...points.values()]
-      .filter((p) => p.time_ratio > 0 && p.error > 0)
-      .map((p) => ({ ...p, x: p.time_ratio, y: p.error }));
+      .filter((p) => p[cost] > 0 && p[error] > 0)
+      .map((p) => ({ ...p, x: p[cost], y: p[error] }));
     // The default stands under every knob that has it, but is one point of the front.
     const standard = all.find((p) => p.role === "default");
     const front = all
-      .filter((p) => p.pareto === 1 && (p.role !== "default" || p === standard))
+      .filter((p) => p[optimal] === 1 && (p.role !== "default" || p === standard))
       .map((p) => (p === standard ? { ...p, name: "default" } : p))
       .sort((a, b) => a.x - b.x);
     const knobs = [...new Set(all.map((p) => p.knob))];
@@ -129,13 +132,13 @@
         pointRadius: 5, pointHoverRadius: 7, pointStyle: rival ? "rectRot" : "circle", order: 2,
       });
     });
-    const noise = all.map((p) => p.truth_stderr).filter((s) => s > 0).sort((a, b) => a - b);
+    const noise = all.map((p) => p[noiseMetric]).filter((s) => s > 0).sort((a, b) => a - b);
     if (noise.length > 0 && all.length > 0) {
       const y = noise[Math.floor(noise.length / 2)];
       const xs = all.map((p) => p.x);
       datasets.push({
-        label: "standard error of the truth", showLine: true, pointRadius: 0, borderDash: [2, 3], borderWidth: 1,
-        data: [Math.min(...xs), Math.max(...xs)].map((x) => ({ x, y, name: "standard error of the truth" })),
+        label: noiseTitle, showLine: true, pointRadius: 0, borderDash: [2, 3], borderWidth: 1,
+        data: [Math.min(...xs), Math.max(...xs)].map((x) => ({ x, y, name: noiseTitle })),
         borderColor: colour("--soft"), backgroundColor: "transparent", order: 3,
       });
     }
@@ -145,14 +148,15 @@
       plugins: [pointNames],
       options: {
         scales: {
-          x: logAxis("time over the default's", all.map((p) => p.x)),
-          y: logAxis("error", [...all.map((p) => p.y), ...noise]),
+          x: logAxis(costTitle, all.map((p) => p.x)),
+          y: logAxis(errorTitle, [...all.map((p) => p.y), ...noise]),
         },
         plugins: {
           legend: { position: "bottom", labels: { usePointStyle: true, boxHeight: 7 } },
           tooltip: {
             callbacks: {
-              label: ({ raw }) => `${raw.name}: error ${short(raw.y)} in ${short(raw.x)} of the default's time`,
+              label: ({ raw }) =>
+                `${raw.name}: ${tip.replace("{error}", short(raw.y)).replace("{cost}", short(raw.x))}`,
             },
           },
         },
@@ -191,7 +195,7 @@
     };
   };
 
-  const makers = { accuracy: accuracyChart, curve: curveChart };
+  const makers = { tradeoff: tradeOffChart, curve: curveChart };
   const draw = () => {
     charts.splice(0).forEach((chart) => chart.destroy());
     setTheme();

@@ -1,58 +1,48 @@
 #include "host/report/page/pictures.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
 #include "host/report/page/html_text.h"
 #include "host/report/picture/heatmap.h"
 #include "host/report/picture/image_io.h"
+#include "host/report/record/case_name.h"
 #include "host/report/record/case_records.h"
 #include "host/report/record/text_table.h"
 
 namespace glintmark {
 namespace {
 
-constexpr const char* kHeatmapPrefix = "cells_";
-constexpr const char* kAngleStrip = "angle_strip.png";
 // A histogram that is read back from a picture is shown where its mean is the record's.
 constexpr double kMeanTolerance = 0.02;
 
-std::string withUnderscores(std::string name) {
-  std::ranges::replace(name, '/', '_');
-  std::ranges::replace(name, '=', '_');
-  return name;
-}
-
-// "scene/view" and the method of "scene/view/method[/knob=value]"; the knob goes to the view.
-struct ViewMethod {
-  std::string view, method;
-};
-std::optional<ViewMethod> splitCase(const std::string& name) {
-  const std::size_t first = name.find('/');
-  const std::size_t second = first == std::string::npos ? first : name.find('/', first + 1);
-  if (second == std::string::npos) return {};
-  const std::size_t third = std::min(name.find('/', second + 1), name.size());
-  return ViewMethod{name.substr(0, second) + name.substr(third),
-                    name.substr(second + 1, third - second - 1)};
-}
-
 // Names of a strip's pictures, left to right, as the benchmarks put them.
-std::string stripPanels(const std::string& table, const std::vector<std::string>& methods) {
+std::string stripPanels(const PictureGroup& group, const std::vector<std::string>& methods) {
   std::vector<std::string> panels = methods;
-  if (table == "tao21") {
-    panels.push_back("truth");
-  } else {
-    panels.insert(panels.begin(), "truth");
+  panels.insert(group.truth_first ? panels.begin() : panels.end(), "truth");
+  if (group.differences)
     for (const std::string& method : methods) panels.push_back("|" + method + " − truth|");
+  return fmt::format("{}", fmt::join(panels, ";"));
+}
+
+// The views of cases scene/view/method, knobs with the view, each with its methods.
+std::vector<std::pair<CaseName, std::vector<std::string>>> methodsByView(
+    std::span<const Record> records) {
+  std::vector<std::pair<CaseName, std::vector<std::string>>> views;
+  for (const std::string& text : caseNames(records)) {
+    const CaseName name = CaseName::parse(text);
+    if (name.words.size() < 3) continue;
+    const CaseName view{{name.words[0], name.words[1]}, name.knobs};
+    auto found = std::ranges::find(views, view, &decltype(views)::value_type::first);
+    if (found == views.end()) found = views.insert(views.end(), {view, {}});
+    found->second.push_back(name.words[2]);
   }
-  std::string joined;
-  for (const std::string& panel : panels) joined += (joined.empty() ? "" : ";") + panel;
-  return joined;
+  return views;
 }
 
 std::string missing(const std::string& what) {
@@ -66,7 +56,7 @@ ReportPicture readReportPicture(const std::filesystem::path& file) {
   picture.name = file.filename().string();
   try {
     const Image image = readImage(file);
-    if (picture.name.starts_with(kHeatmapPrefix)) picture.cells = heatmapDistribution(image);
+    if (isHeatmapFile(picture.name)) picture.cells = heatmapDistribution(image);
     picture.png_bytes = readTextFile(file);
   } catch (const Error& error) {
     picture.problem = error.what();
@@ -76,6 +66,10 @@ ReportPicture readReportPicture(const std::filesystem::path& file) {
 
 PictureShelf::PictureShelf(std::span<const ReportPicture> pictures, std::size_t most_bytes)
     : pictures_(pictures), taken_(pictures.size(), false), bytes_left_(most_bytes) {}
+
+bool PictureShelf::has(const std::string& name) const {
+  return std::ranges::find(pictures_, name, &ReportPicture::name) != pictures_.end();
+}
 
 const ReportPicture* PictureShelf::take(const std::string& name) {
   for (std::size_t i = 0; i < pictures_.size(); ++i) {
@@ -104,12 +98,12 @@ std::string PictureShelf::figure(const std::string& name, const std::string& cap
                      image(*picture, caption), escapeHtml(caption), below);
 }
 
-std::string PictureShelf::heatmaps(std::span<const Record> records) {
+std::string PictureShelf::heatmaps(const PictureGroup& group, std::span<const Record> records) {
   std::string html;
   for (const std::string& name : caseNames(records)) {
-    const Record* mean = CaseRecords(records, name).find("cells_mean");
+    const Record* mean = CaseRecords(records, name).find(group.metric);
     if (mean == nullptr) continue;
-    const std::string file = kHeatmapPrefix + withUnderscores(name) + ".png";
+    const std::string file = heatmapFile(CaseName::parse(name));
     const auto found = std::ranges::find(pictures_, file, &ReportPicture::name);
     std::string below;
     if (found != pictures_.end() && found->cells.glint_px > 0 &&
@@ -120,57 +114,62 @@ std::string PictureShelf::heatmaps(std::span<const Record> records) {
         fmt::format("{}: {} cells a pixel in the mean", name, compactNumber(mean->value.median)),
         "", below);
   }
-  if (html.empty()) return "";
-  html =
-      "<h3>Cells visited per pixel</h3>\n<p>False colours from 8 to 64 cells, pixels over cells "
-      "below.</p>\n<div class=\"pictures\">\n" +
-      html + "</div>\n<h3>Cells over the angle of view</h3>\n";
-  if (std::ranges::find(pictures_, kAngleStrip, &ReportPicture::name) == pictures_.end())
-    return html + missing(fmt::format("No angle strip in the folder; glintmark heatmap "
-                                      "--sweep-angle -o FOLDER/{} draws one",
-                                      kAngleStrip));
-  return html + figure(kAngleStrip, "screen_plane, from steep to grazing");
+  return html.empty() ? "" : "<div class=\"pictures\">\n" + html + "</div>\n";
 }
 
-std::string PictureShelf::strips(const std::string& table, std::span<const Record> records) {
-  std::vector<std::pair<std::string, std::vector<std::string>>> views;
-  for (const std::string& name : caseNames(records)) {
-    const auto parts = splitCase(name);
-    if (!parts || parts->method.find('=') != std::string::npos) continue;
-    auto found = std::ranges::find(views, parts->view, &decltype(views)::value_type::first);
-    if (found == views.end()) found = views.insert(views.end(), {parts->view, {}});
-    found->second.push_back(parts->method);
-  }
+std::string PictureShelf::strips(const PictureGroup& group, const std::string& table,
+                                 std::span<const Record> records) {
   std::string html;
-  for (const auto& [view, methods] : views) {
-    const std::string file = table + "_" + withUnderscores(view) + ".png";
-    const bool here = std::ranges::find(pictures_, file, &ReportPicture::name) != pictures_.end();
-    // Distances of [TAN05]'s zoom-out are measured without a picture each.
-    if (!here && table == "tan05") continue;
-    html += figure(file, view,
+  for (const auto& [view, methods] : methodsByView(records)) {
+    const std::string file = table + "_" + view.fileStem() + ".png";
+    if (group.optional && !has(file)) continue;
+    html += figure(file, view.text(),
                    fmt::format(" class=\"strip\" data-panels=\"{}\"",
-                               escapeHtml(stripPanels(table, methods))));
+                               escapeHtml(stripPanels(group, methods))));
   }
-  if (html.empty()) return "";
-  return "<h3>Side by side</h3>\n<p>Choose two pictures and move the slider.</p>\n<div "
-         "class=\"strips\">\n" +
-         html + "</div>\n";
+  return html.empty() ? "" : "<div class=\"strips\">\n" + html + "</div>\n";
 }
 
-std::string PictureShelf::tablePictures(const std::string& table, std::span<const Record> records) {
+std::string PictureShelf::singles(const PictureGroup& group) {
   std::string html;
-  if (table == "zk16") html += heatmaps(records);
-  if (table == "tao21" || table == "tan05") html += strips(table, records);
-  if (table == "msbrdf") {
-    html += "<div class=\"pictures large\">\n" +
-            figure("msbrdf_energy.png", "Energy over roughness and incidence") +
-            figure("msbrdf_sweep.png", "Rough clay: rows by model, columns by roughness") +
-            "</div>\n";
+  for (const PictureSpec& picture : group.pictures)
+    html += !has(picture.file) && !picture.missing.empty() ? missing(picture.missing)
+                                                           : figure(picture.file, picture.caption);
+  return group.large ? "<div class=\"pictures large\">\n" + html + "</div>\n" : html;
+}
+
+std::string PictureShelf::groupHtml(const PictureGroup& group, const std::string& table,
+                                    std::span<const Record> records) {
+  if (!group.metric.empty() &&
+      std::ranges::find(records, group.metric, &Record::metric) == records.end())
+    return "";
+  std::string html;
+  switch (group.kind) {
+    case PictureGroup::Kind::kSingle:
+      html = singles(group);
+      break;
+    case PictureGroup::Kind::kHeatmaps:
+      html = heatmaps(group, records);
+      break;
+    case PictureGroup::Kind::kStrips:
+      html = strips(group, table, records);
+      break;
+    case PictureGroup::Kind::kHidden:
+      for (const PictureSpec& picture : group.pictures) take(picture.file);
+      break;
   }
-  if (table == "effects") take("effects_matrix.png");  // the table has its numbers
+  if (html.empty()) return "";
+  if (!group.text.empty()) html = fmt::format("<p>{}</p>\n", escapeHtml(group.text)) + html;
+  if (!group.heading.empty()) html = fmt::format("<h3>{}</h3>\n", escapeHtml(group.heading)) + html;
+  return html;
+}
+
+std::string PictureShelf::tablePictures(const TableSpec& table, std::span<const Record> records) {
+  std::string html;
+  for (const PictureGroup& group : table.pictures) html += groupHtml(group, table.name, records);
   std::string more;
   for (const ReportPicture& picture : pictures_)
-    if (picture.name.starts_with(table + "_") &&
+    if (picture.name.starts_with(table.name + "_") &&
         !taken_[static_cast<std::size_t>(&picture - pictures_.data())])
       more += figure(picture.name, picture.name);
   return more.empty() ? html : html + "<div class=\"pictures\">\n" + more + "</div>\n";

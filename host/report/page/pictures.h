@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "host/report/picture/cell_statistics.h"
-#include "host/report/record/record.h"
+#include "host/report/record/table_spec.h"
 
 namespace glintmark {
 
@@ -26,19 +26,24 @@ class PictureShelf {
   /// `most_bytes` of the page are for pictures.
   PictureShelf(std::span<const ReportPicture> pictures, std::size_t most_bytes);
 
-  /// Pictures that belong to a table by their names, each with what it needs around it; a sentence
-  /// in place of each that its records make one expect and that is not there.
-  std::string tablePictures(const std::string& table, std::span<const Record> records);
+  /// Pictures of a table: the groups that it has, and all others whose names begin with its own; a
+  /// sentence in place of each that its records make one expect and that is not there.
+  std::string tablePictures(const TableSpec& table, std::span<const Record> records);
   /// Those that no table took.
   std::string otherPictures();
 
  private:
+  bool has(const std::string& name) const;
   const ReportPicture* take(const std::string& name);
   std::string image(const ReportPicture& picture, const std::string& alt);
   std::string figure(const std::string& name, const std::string& caption,
                      const std::string& attributes = "", const std::string& below = "");
-  std::string heatmaps(std::span<const Record> records);
-  std::string strips(const std::string& table, std::span<const Record> records);
+  std::string heatmaps(const PictureGroup& group, std::span<const Record> records);
+  std::string strips(const PictureGroup& group, const std::string& table,
+                     std::span<const Record> records);
+  std::string singles(const PictureGroup& group);
+  std::string groupHtml(const PictureGroup& group, const std::string& table,
+                        std::span<const Record> records);
 
   std::span<const ReportPicture> pictures_;
   std::vector<bool> taken_;

@@ -7,7 +7,6 @@
 #include <set>
 
 #include "host/report/page/html_text.h"
-#include "host/report/page/table_names.h"
 #include "host/report/record/case_records.h"
 #include "host/report/record/text_table.h"
 
@@ -30,7 +29,7 @@ std::string ratioHtml(const Record& record, double largest) {
                      compactNumber(ratioOf(record)));
 }
 
-std::string paperTableHtml(const std::string& table, const std::string& metric,
+std::string paperTableHtml(const TableSpec& table, const std::string& metric,
                            std::span<const Record> records) {
   std::vector<const Record*> shown;
   double largest = 0;
@@ -43,11 +42,12 @@ std::string paperTableHtml(const std::string& table, const std::string& metric,
   std::vector<std::string> header = {"case", "paper", "here", "±", "here / paper"};
   std::vector<const Record*> samples;  // of the companions, for their units
   std::vector<std::string> beside;
-  for (const std::string& name : companions(table, metric)) {
+  const MetricSpec* spec = table.findMetric(metric);
+  for (const std::string& name : spec == nullptr ? std::vector<std::string>() : spec->beside) {
     const auto found = std::ranges::find(records, name, &Record::metric);
     if (found == records.end()) continue;
     beside.push_back(name);
-    header.push_back(escapeHtml(metricName(name, found->unit)));
+    header.push_back(escapeHtml(table.metricTitle(name, found->unit)));
   }
   std::vector<std::vector<std::string>> rows;
   for (const Record* record : shown) {
@@ -60,12 +60,12 @@ std::string paperTableHtml(const std::string& table, const std::string& metric,
       rows.back().push_back(cellHtml(other == nullptr ? "" : numberHtml(*other)));
     }
   }
-  return tableHtml(escapeHtml(metricName(metric, shown.front()->unit)), header, rows);
+  return tableHtml(escapeHtml(table.metricTitle(metric, shown.front()->unit)), header, rows);
 }
 
 }  // namespace
 
-std::string paperTablesHtml(const std::string& table, std::span<const Record> records) {
+std::string paperTablesHtml(const TableSpec& table, std::span<const Record> records) {
   std::string html;
   for (const std::string& metric : distinctValues(records, &Record::metric))
     html += paperTableHtml(table, metric, records);

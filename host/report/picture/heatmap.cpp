@@ -14,6 +14,8 @@
 namespace glintmark {
 namespace {
 
+constexpr std::string_view kFilePrefix = "cells_";
+
 constexpr DisplayColour kUncovered = {0.16f, 0.16f, 0.16f};
 constexpr DisplayColour kUnlit = {0.35f, 0.35f, 0.35f};
 constexpr DisplayColour kPaper = {1, 1, 1};
@@ -137,6 +139,14 @@ CellDistribution heatmapDistribution(const Image& picture) {
       cells.at(x, y)[0] = found == counts.end() ? -1.0f : found->second;
     }
   return cellDistribution(cells);
+}
+
+std::string heatmapFile(const CaseName& name) {
+  return std::string(kFilePrefix) + name.fileStem() + ".png";
+}
+
+bool isHeatmapFile(std::string_view name) {
+  return name.starts_with(kFilePrefix);
 }
 
 Image heatmapStrip(const std::vector<Image>& cells, const std::vector<std::string>& captions,

@@ -2,10 +2,12 @@
 #pragma once
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "host/core/image.h"
 #include "host/report/picture/cell_statistics.h"
+#include "host/report/record/case_name.h"
 
 namespace glintmark {
 
@@ -37,6 +39,11 @@ Image heatmapPicture(const Image& cells, const HeatmapOptions& options);
 /// The distribution behind a heatmapPicture of kFixed scale, read back from its colours; counts
 /// outside 8 to 64 come back as the nearer end.
 CellDistribution heatmapDistribution(const Image& picture);
+
+/// The heatmap of a case in a folder of results: "cells_snow_steep.png" of "snow/steep".
+std::string heatmapFile(const CaseName& name);
+/// Is a file named like one?
+bool isHeatmapFile(std::string_view name);
 
 /// Pictures of one view each side by side with a caption under each, one legend below.
 Image heatmapStrip(const std::vector<Image>& cells, const std::vector<std::string>& captions,

@@ -20,19 +20,18 @@ bool isTime(const Record& record) {
   return record.unit == "ms" || record.unit == "ns" || record.unit == "s";
 }
 
-// Ratios of times whose numerator is what this program wants to be fast.
-constexpr const char* kCostRatios[] = {"time_ratio",           "mixed_over_sum",
-                                       "mixed_over_sum_worst", "gmm_over_toksvig",
-                                       "tao21_over_original",  "multiscale_over_original"};
+bool isCostRatio(std::span<const TableSpec> tables, const Record& record) {
+  const auto table = std::ranges::find(tables, record.table, &TableSpec::name);
+  return table != tables.end() && std::ranges::count(table->cost_ratios, record.metric) > 0;
+}
 
-Direction directionOf(const Record& record) {
+Direction directionOf(std::span<const TableSpec> tables, const Record& record) {
   const std::string& metric = record.metric;
   const auto has = [&](const char* part) { return metric.find(part) != std::string::npos; };
   if (metric.ends_with("per_s") || metric == "fps" || metric.starts_with("speedup"))
     return Direction::kHigherIsBetter;
   if (isTime(record) || record.unit == "bytes" || record.unit == "instructions" || has("cost") ||
-      has("error") || has("bias") || metric == "rel_mse" ||
-      std::ranges::count(kCostRatios, metric) > 0)
+      has("error") || has("bias") || metric == "rel_mse" || isCostRatio(tables, record))
     return Direction::kLowerIsBetter;
   return Direction::kNeither;
 }
@@ -61,14 +60,14 @@ std::optional<double> welchOnMedians(const Summary& a, const Summary& b) {
   return 2 * boost::math::cdf(boost::math::complement(boost::math::students_t(freedom), t));
 }
 
-Change judge(const Record& before, const Record& after, std::optional<double> p_value,
-             double threshold) {
+Change judge(std::span<const TableSpec> tables, const Record& before, const Record& after,
+             std::optional<double> p_value, double threshold) {
   const double a = before.value.median, b = after.value.median;
   if (a == b || (std::isnan(a) && std::isnan(b))) return Change::kSame;
   if (std::abs(b - a) <= threshold * std::max(std::abs(a), std::abs(b))) return Change::kSame;
   if (p_value && *p_value > kChangeLevel) return Change::kNoise;
   if (!p_value && (isTime(before) || before.value.n != after.value.n)) return Change::kUndecided;
-  switch (directionOf(after)) {
+  switch (directionOf(tables, after)) {
     case Direction::kNeither:
       return Change::kDifferent;
     case Direction::kLowerIsBetter:
@@ -118,7 +117,7 @@ bool ComparisonReport::hasRegression() const {
 }
 
 ComparisonReport compareResults(const Results& old_results, const Results& new_results,
-                                double threshold) {
+                                std::span<const TableSpec> tables, double threshold) {
   std::map<Key, const Record*> before;
   for (const Record& record : old_results.records) before[keyOf(record)] = &record;
   ComparisonReport report;
@@ -141,7 +140,7 @@ ComparisonReport compareResults(const Results& old_results, const Results& new_r
                  .old_value = old_record.value.median,
                  .new_value = after.value.median};
     c.p_value = welchOnMedians(old_record.value, after.value);
-    c.change = judge(old_record, after, c.p_value, threshold);
+    c.change = judge(tables, old_record, after, c.p_value, threshold);
     report.comparisons.push_back(std::move(c));
   }
   report.only_old = before.size() - std::min(before.size(), partners);

@@ -1,10 +1,12 @@
 // Two results files, record by record: what changed beyond the noise of its measurement.
 #pragma once
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "host/report/record/records.h"
+#include "host/report/record/table_spec.h"
 
 namespace glintmark {
 
@@ -42,9 +44,10 @@ inline constexpr double kChangeLevel = 0.01;
 /// build options and the number of repetitions left aside). The test is Welch's t on the medians:
 /// the standard error of a median is sqrt(pi / 2) stddev / sqrt(n), as for normal samples. Figures
 /// that are not times and have no spread are exact, so any difference beyond `threshold` (a
-/// fraction, 0.05 for 5 %) is a change. The test knows nothing of drift between the two runs.
+/// fraction, 0.05 for 5 %) is a change; `tables` say which ratios are wanted small. The test knows
+/// nothing of drift between the two runs.
 ComparisonReport compareResults(const Results& old_results, const Results& new_results,
-                                double threshold);
+                                std::span<const TableSpec> tables, double threshold);
 
 /// Changes (all comparisons if `all`) as a table, then the totals in a sentence.
 std::string comparisonText(const ComparisonReport& report, bool all);

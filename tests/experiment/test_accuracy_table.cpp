@@ -1,5 +1,5 @@
 // Table "accuracy": which settings are optimal, and the sentence below it.
-#include "host/report/accuracy_table.h"
+#include "host/experiment/accuracy/accuracy_table.h"
 
 #include <gtest/gtest.h>
 

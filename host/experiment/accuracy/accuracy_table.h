@@ -4,9 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "host/report/record/record.h"
+#include "host/report/record/table_spec.h"
 
 namespace glintmark {
+
+/// Table "accuracy": names, metrics, what the page shows.
+const TableSpec& accuracySpec();
 
 /// Part that a case plays, in its records' configuration under "role".
 inline constexpr const char* kAccuracyDefault = "default";

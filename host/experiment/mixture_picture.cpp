@@ -1,4 +1,4 @@
-#include "host/cli/mixture_picture.h"
+#include "host/experiment/mixture_picture.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "host/report/accuracy_table.h"
+#include "host/experiment/accuracy/accuracy_table.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include "host/report/pareto.h"
+#include "host/experiment/accuracy/accuracy_page.h"
+#include "host/experiment/accuracy/pareto.h"
+#include "host/report/record/case_name.h"
 #include "host/report/record/case_records.h"
 #include "host/report/record/text_table.h"
 
@@ -62,12 +64,12 @@ std::vector<Effect> effectsOf(std::span<const Record> records) {
     const CaseRecords one(records, case_name);
     const Record *error = one.find("error"), *ratio = one.find("time_ratio");
     if (error == nullptr || ratio == nullptr) continue;
-    const std::size_t slash = case_name.find('/');
-    const std::string name = case_name.substr(0, slash);
+    const CaseName parts = CaseName::parse(case_name);
+    const std::string& name = parts.word(0);
     if (effects.empty() || effects.back().name != name) effects.push_back({name, {}, {}});
     const Record* truth = one.find("truth_stderr");
-    effects.back().settings.push_back({case_name, case_name.substr(slash + 1), error,
-                                       ratio->value.median, 2 * medianStandardError(ratio->value),
+    effects.back().settings.push_back({case_name, parts.rest().text(), error, ratio->value.median,
+                                       2 * medianStandardError(ratio->value),
                                        truth == nullptr ? 0 : truth->value.median,
                                        accuracyRole(*error) == kAccuracyDefault});
   }
@@ -186,6 +188,49 @@ std::string effectText(std::span<const Record> records, const Effect& effect) {
 }
 
 }  // namespace
+
+const TableSpec& accuracySpec() {
+  static const TableSpec spec = {
+      .name = "accuracy",
+      .title = "What accuracy costs",
+      .about =
+          "Each knob's error against the time it takes, both axes logarithmic. A named setting "
+          "is Pareto-optimal: nothing else is both faster and closer.",
+      .metrics =
+          {{"error", "1", "error",
+            "the effect's principal metric, below; the note names it, the truth, its size and the "
+            "scenes"},
+           {"truth_stderr", "1", "standard error of the truth",
+            "what the truth itself may be off, in the same metric"},
+           {"time_ratio", "1", "time over the default's",
+            "time over the default's, measured in turn; 1 for the default"},
+           {"time_ms", "ms", "time",
+            "kernel events of a frame at the command line's size; of simulations wall time"},
+           {"fit_ratio", "1", "",
+            "of knobs of a fit: its time over the default fit's, in turn, on the first scene"},
+           {"pareto", "1", "",
+            "1 if no setting of the effect is as good in both time and error and better in one. "
+            "Times and errors go in steps of 5 % from the default's; times within two standard "
+            "errors of their median are the default's, errors below `truth_stderr` are equal, and "
+            "what is not `valid` neither wins nor beats. Not in `records.jsonl`: it follows from "
+            "the "
+            "rest"},
+           {"bias", "1", "bias of the mean",
+            "relative bias of the mean, relative mean squared error, distance of display colours"},
+           {"rel_mse", "1", "relMSE"},
+           {"colour_error", "1", "colour error"},
+           {"distribution_distance", "1", "distance of distributions",
+            "glints: Wasserstein distance between the distributions of pixel luminances, over the "
+            "mean"},
+           {"frame_to_frame_error", "1", "frame-to-frame error",
+            "glints: colour error of the change from frame to frame, three frames a quarter of a "
+            "pixel apart, against the change by method `exact`"}},
+      .cost_ratios = {"time_ratio"},
+      .headline = Headline{"pareto", "settings on the front of accuracy against time", true},
+      .section = accuracyHtml,
+  };
+  return spec;
+}
 
 std::string accuracyRole(const Record& record) {
   const auto role = record.config.find("role");

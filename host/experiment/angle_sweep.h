@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include "host/cli/command_line.h"
+#include "host/experiment/session.h"
 #include "host/frame/frame_renderer.h"
 #include "host/report/picture/heatmap.h"
 

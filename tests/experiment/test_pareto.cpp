@@ -1,5 +1,5 @@
 // Trade-offs: closed cases, and against the definition by brute force.
-#include "host/report/pareto.h"
+#include "host/experiment/accuracy/pareto.h"
 
 #include <gtest/gtest.h>
 

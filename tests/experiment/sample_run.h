@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "host/report/accuracy_table.h"
+#include "host/experiment/accuracy/accuracy_table.h"
 #include "host/report/record/records.h"
 #include "tests/report/sample_records.h"
 

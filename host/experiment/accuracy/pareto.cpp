@@ -1,4 +1,4 @@
-#include "host/report/pareto.h"
+#include "host/experiment/accuracy/pareto.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "host/cli/angle_sweep.h"
+#include "host/experiment/angle_sweep.h"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,171 @@
+#include "host/cli/command.h"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "host/core/error.h"
+
+namespace glintmark {
+namespace {
+
+std::string joined(const std::vector<std::string>& names) {
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+// Options of the chosen command, then the program's, each once.
+std::string knownOptions(const CLI::App& app, const CLI::App& command) {
+  std::vector<std::string> known;
+  for (const CLI::App* level : {&command, &app}) {
+    for (const CLI::Option* option : level->get_options()) {
+      const std::string name = option->get_name();
+      if (option->get_positional() || std::ranges::find(known, name) != known.end()) continue;
+      known.push_back(name);
+    }
+  }
+  return joined(known);
+}
+
+std::string knownCommands(const CLI::App& app) {
+  std::vector<std::string> known;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    known.push_back(command->get_name());
+  return joined(known);
+}
+
+// The innermost command that was named, or the program itself.
+CLI::App& chosenCommand(CLI::App& app) {
+  CLI::App* command = &app;
+  while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
+  return *command;
+}
+
+// "glintmark fit ltc"
+std::string pathOf(CLI::App& command) {
+  CLI::App* parent = command.get_parent();
+  return (parent == nullptr ? "" : pathOf(*parent) + " ") + command.get_name();
+}
+
+// One sentence for whatever CLI11 did not like.
+std::string explain(CLI::App& app, const CLI::ParseError& error) {
+  CLI::App& command = chosenCommand(app);
+  const std::string name = command.get_name();
+  const bool has_commands = !command.get_subcommands(nullptr).empty();
+  for (const std::string& word : app.remaining(true)) {
+    if (word.starts_with("-")) {
+      return fmt::format("unknown option '{}'; {} knows {}", word, name,
+                         knownOptions(app, command));
+    }
+    if (has_commands) {
+      return fmt::format("unknown command '{}'; commands of {} are {}", word, name,
+                         knownCommands(command));
+    }
+    return fmt::format("'{}' is one argument too many for {}", word, name);
+  }
+  if (has_commands && error.get_name() == "RequiredError") {
+    return fmt::format("no command given; commands of {} are {} (see {} --help)", name,
+                       knownCommands(command), pathOf(command));
+  }
+  return fmt::format("{} (see {} --help)", error.what(), pathOf(command));
+}
+
+}  // namespace
+
+CommandOption& CommandOption::typeName(const std::string& name) {
+  option_->type_name(name);
+  return *this;
+}
+
+CommandOption& CommandOption::required() {
+  option_->required();
+  return *this;
+}
+
+CommandOption& CommandOption::oneValueEach() {
+  option_->allow_extra_args(false);
+  return *this;
+}
+
+CommandOption& CommandOption::values(int least, int most) {
+  option_->expected(least, most);
+  return *this;
+}
+
+CommandOption& CommandOption::nonNegative() {
+  option_->check(CLI::NonNegativeNumber);
+  return *this;
+}
+
+bool CommandOption::given() const {
+  return option_->count() > 0;
+}
+
+Command Command::subcommand(const std::string& name, const std::string& help) {
+  return Command(*app_->add_subcommand(name, help));
+}
+
+void Command::requireSubcommand() {
+  app_->require_subcommand(1);
+}
+
+void Command::shareOptions() {
+  for (CLI::App* command : app_->get_subcommands(nullptr)) command->fallthrough();
+}
+
+template <typename T>
+CommandOption Command::option(const std::string& names, T& value, const std::string& help) {
+  return CommandOption(*app_->add_option(names, value, help));
+}
+
+template CommandOption Command::option(const std::string&, std::string&, const std::string&);
+template CommandOption Command::option(const std::string&, int&, const std::string&);
+template CommandOption Command::option(const std::string&, double&, const std::string&);
+template CommandOption Command::option(const std::string&, std::uint32_t&, const std::string&);
+template CommandOption Command::option(const std::string&, std::uint64_t&, const std::string&);
+template CommandOption Command::option(const std::string&, std::optional<double>&,
+                                       const std::string&);
+template CommandOption Command::option(const std::string&, std::vector<double>&,
+                                       const std::string&);
+template CommandOption Command::option(const std::string&, std::vector<std::string>&,
+                                       const std::string&);
+
+CommandOption Command::flag(const std::string& names, bool& value, const std::string& help) {
+  return CommandOption(*app_->add_flag(names, value, help));
+}
+
+void Command::footer(const std::string& text) {
+  app_->footer(text);
+}
+
+void Command::callback(const std::function<void()>& call) {
+  app_->callback(call);
+}
+
+CommandParser::CommandParser(const std::string& name, const std::string& description,
+                             const std::string& version)
+    : app_(std::make_unique<CLI::App>(description, name)) {
+  app_->set_version_flag("--version", version);
+}
+
+CommandParser::~CommandParser() = default;
+
+Command CommandParser::program() {
+  return Command(*app_);
+}
+
+std::optional<int> CommandParser::parse(int argc, const char* const* argv) {
+  try {
+    app_->parse(argc, argv);
+  } catch (const CLI::Success& help_or_version) {
+    return app_->exit(help_or_version);
+  } catch (const CLI::ParseError& error) {
+    throw Error(explain(*app_, error));
+  }
+  return std::nullopt;
+}
+
+}  // namespace glintmark

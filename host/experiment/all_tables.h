@@ -1,0 +1,15 @@
+// The one list of tables, which `bench`, `accuracy`, `report`, the page and the documentation read.
+#pragma once
+#include <vector>
+
+#include "host/experiment/bench_run.h"
+
+namespace glintmark {
+
+/// In the order in which they are measured, printed and shown.
+std::vector<BenchTable> allTables();
+
+/// What each says of itself, in the same order.
+std::vector<TableSpec> allTableSpecs();
+
+}  // namespace glintmark

@@ -1,0 +1,89 @@
+#include "host/experiment/bench.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "host/core/atomic_file.h"
+#include "host/core/error.h"
+#include "host/core/trace.h"
+#include "host/experiment/all_tables.h"
+#include "host/experiment/interrupt.h"
+#include "host/report/record/trace_file.h"
+
+namespace glintmark {
+namespace {
+
+// Those that are not measured by a command of their own.
+std::vector<BenchTable> benchTables() {
+  std::vector<BenchTable> tables = allTables();
+  std::erase_if(tables, [](const BenchTable& table) { return table.measure == nullptr; });
+  return tables;
+}
+
+std::vector<std::string> namesOf(const std::vector<BenchTable>& tables) {
+  std::vector<std::string> names;
+  for (const BenchTable& table : tables) names.push_back(table.spec.name);
+  return names;
+}
+
+// Throws Error if some chosen name is none of the known ones.
+void requireKnown(const char* what, const std::vector<std::string>& chosen,
+                  const std::vector<std::string>& known) {
+  for (const std::string& name : chosen) {
+    if (std::ranges::find(known, name) == known.end())
+      throw Error(
+          fmt::format("unknown {} '{}'; {}s are {}", what, name, what, fmt::join(known, ", ")));
+  }
+}
+
+// Does the table have any of the chosen names?
+bool offersAny(const std::vector<std::string>& known, const std::vector<std::string>& chosen) {
+  return chosen.empty() || !selectNames(known, chosen).empty();
+}
+
+std::vector<BenchTable> chooseTables(const std::vector<std::string>& names,
+                                     const BenchOptions& options) {
+  std::vector<BenchTable> tables = benchTables();
+  requireKnown("table", names, namesOf(tables));
+  if (!names.empty())
+    std::erase_if(tables, [&](const BenchTable& table) {
+      return std::ranges::find(names, table.spec.name) == names.end();
+    });
+  std::vector<std::string> scenes, views;
+  for (const BenchTable& table : tables) {
+    scenes.insert(scenes.end(), table.scenes.begin(), table.scenes.end());
+    views.insert(views.end(), table.views.begin(), table.views.end());
+  }
+  requireKnown("scene", options.scenes, scenes);
+  requireKnown("view", options.views, views);
+  std::erase_if(tables, [&](const BenchTable& table) {
+    return !offersAny(table.scenes, options.scenes) || !offersAny(table.views, options.views);
+  });
+  return tables;
+}
+
+}  // namespace
+
+std::vector<std::string> benchTableNames() {
+  return namesOf(benchTables());
+}
+
+int runBench(const Session& session, const std::vector<std::string>& names,
+             const BenchOptions& options) {
+  const std::vector<BenchTable> tables = chooseTables(names, options);
+  const InterruptGuard guard;
+  if (!options.trace.empty()) {
+    requireWritableFile(options.trace);
+    startTrace();
+  }
+  BenchRun run(session, options);
+  for (const BenchTable& table : tables) table.measure(run);
+  std::vector<std::string> texts;
+  for (const BenchTable& table : tables) texts.push_back(table.text(run));
+  if (!options.trace.empty()) writeTrace(options.trace, run.info());
+  return run.finish(fmt::format("{}", fmt::join(texts, "\n")));
+}
+
+}  // namespace glintmark
