@@ -85,7 +85,7 @@ class ViewMeasurer {
     if (!wanted.suffix.empty()) {
       const std::string value = wanted.suffix.substr(wanted.suffix.find('=') + 1);
       for (Material& material : scene.materials)
-        material.glint.alpha_g = {std::stof(value), std::stof(value)};
+        material.params.surface.alpha_g = {std::stof(value), std::stof(value)};
       file += "_roughness_" + value;
     }
     Tao21View view =
