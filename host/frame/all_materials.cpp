@@ -10,10 +10,10 @@ namespace glintmark {
 
 Buffer uploadMaterials(Device& device, const Scene& scene, const ShadingOptions& options,
                        int lanes) {
-  std::vector<GlintMaterial> materials;
+  std::vector<MaterialParams> materials;
   for (const Material& material : scene.materials) {
-    materials.push_back(material.glint);
-    materials.back().effects = effectBits(configFor(material, scene, options, lanes));
+    materials.push_back(material.params);
+    materials.back().surface.effects = effectBits(configFor(material, scene, options, lanes));
   }
   return upload(device, materials, BufferPurpose::kMaterials);
 }

@@ -12,7 +12,7 @@ namespace {
 
 // Switches of a program that shades frames, or samples the ground truth.
 KernelConfig chosenConfig(const ProgramCall& call, int lanes) {
-  const auto& albedo = call.material.glint.albedo;
+  const auto& albedo = call.material.params.surface.albedo;
   KernelConfig config;
   config.width = lanes;
   config.cone_lights = !call.scene.lights.empty();

@@ -103,7 +103,7 @@ KernelConfig FramePass::configOf(const Material& material) const {
 
 Buffer FramePass::materialBuffer(const Material& material, const KernelConfig& config) {
   if (!config.all_materials)
-    return upload(device_, std::vector{material.glint}, BufferPurpose::kMaterials);
+    return upload(device_, std::vector{material.params}, BufferPurpose::kMaterials);
   return resources_
       .kept<AllMaterials>([&] {
         return std::make_shared<AllMaterials>(

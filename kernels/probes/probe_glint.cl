@@ -1,5 +1,6 @@
-// Runs single functions of the kernels over arrays, so that each can be compared with its definition.
-#include "glint/footprint.clh"
+// Runs single functions of the kernels over arrays, so that each can be compared with its
+// definition.
+#include "glint/glint.clh"
 #include "glint/hash.clh"
 
 #define FIRST (get_global_id(0) * WIDTH)
@@ -41,17 +42,17 @@ kernel void probeRandom(global const uint* bits, global float* out, uint count) 
   storeFloat((byteSum(h) - BYTE_SUM_MEAN) / BYTE_SUM_SIGMA, out, count + FIRST);
 }
 
-// in: planes of `count` words: u whole, u fraction, v whole, v fraction, du/dx, dv/dx, du/dy, dv/dy.
-// out: finer level, weight of the coarser grid, extents of the stretched box.
+// in: planes of `count` words: u whole, u fraction, v whole, v fraction, du/dx, dv/dx, du/dy,
+// dv/dy. out: finer level, weight of the coarser grid, extents of the stretched box.
 kernel void probeFootprint(global const uint* in, global float* out, uint count, float gamma_u,
                            float gamma_v) {
   if (FIRST >= count) return;
 #define WORD(plane) loadUint(in, (plane) * (size_t)count + FIRST)
   const FixedUv u = {bitsToInt(WORD(0)), WORD(1)}, v = {bitsToInt(WORD(2)), WORD(3)};
-  const Footprint f =
-      makeFootprint(u, v, bitsToFloat(WORD(4)), bitsToFloat(WORD(5)), bitsToFloat(WORD(6)),
-                    bitsToFloat(WORD(7)), (float2)(gamma_u, gamma_v));
+  const GlintUv uv = {
+      u, v, bitsToFloat(WORD(4)), bitsToFloat(WORD(5)), bitsToFloat(WORD(6)), bitsToFloat(WORD(7))};
 #undef WORD
+  const Footprint f = makeFootprint(uv, (float2)(gamma_u, gamma_v));
   storeFloat(toFloat(f.fine_level), out, FIRST);
   storeFloat(f.coarse_weight, out, count + FIRST);
   storeFloat(f.extent_u, out, 2 * (size_t)count + FIRST);

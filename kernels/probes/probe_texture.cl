@@ -1,13 +1,11 @@
 // Runs the texture fetch over arrays of footprints, PROBE_TEXEL_SIZE float4 per texel.
 #define TEXEL_SIZE PROBE_TEXEL_SIZE
-#include "normals/texture_sum.clh"
+#include "normals/texture_sum_template.clh"
 
 #define NAME2(a, b) a##b
 #define NAME1(a, b) NAME2(a, b)
 
-WIDE vfloat loadFloat(global const uint* p, size_t i) {
-  return bitsToFloat(loadUint(p, i));
-}
+WIDE vfloat loadFloat(global const uint* p, size_t i) { return bitsToFloat(loadUint(p, i)); }
 
 // footprints: planes u, v [2^-32], dudx, dvdx, dudy, dvdy [float bits] of `count` entries each.
 // out: per component of the texel a plane; then count and level of the probes.

@@ -17,15 +17,15 @@ int main(int argc, char** argv) {
     Scene scene = floorScene();
     addFloor(scene, 8, 16, 0);
     scene.materials[0].has_colour = true;
-    scene.materials[0].glint.size_variation = 1;
-    scene.materials[0].glint.albedo = {0.1f, 0.1f, 0.1f, 0};
+    scene.materials[0].params.glints.size_variation = 1;
+    scene.materials[0].params.surface.albedo = {0.1f, 0.1f, 0.1f, 0};
     scene.lights[0].direction.w = 0.05f;
 
     ShadingOptions options;
     options.width_px = 21;  // no multiple of any lane count
     options.height_px = 5;
     options.lanes = std::atoi(argv[1]);
-    options.method = std::atoi(argv[2]) == 0 ? GlintMethod::kZk16 : GlintMethod::kExact;
+    options.method = parseMethod(argv[2]);
     options.count_cells = true;
     Device device;
     FrameRenderer renderer(device, scene, lookingDown(20), options, 1);

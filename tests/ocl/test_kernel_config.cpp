@@ -18,9 +18,9 @@ TEST(KernelConfig, DefaultsAreWrittenAsEver) {
   EXPECT_PRED2(
       startsWith, buildOptions({}),
       "-D WIDTH=1 -D ALL_MATERIALS=0 -D GLINT=1 -D GROOVE=0 -D GLINT_COLOUR=0 -D SIZE_VARIATION=1 "
-      "-D CONE_LIGHTS=1 -D LIGHT_CONE=0 -D DIFFUSE=0 -D COUNT_CELLS=0 -D GLINT_METHOD=0 -D "
+      "-D CONE_LIGHTS=1 -D LIGHT_CONE=0 -D DIFFUSE=0 -D COUNT_CELLS=0 -D GLINT_METHOD=zk16 -D "
       "KA=16 -D GGX=0 "
-      "-D NORMAL_MAP=0 -D NORMAL_METHOD=0 -D LOBES=1 -D ANISOTROPY=1 -D HALF_TEXELS=0 "
+      "-D NORMAL_MAP=0 -D NORMAL_METHOD=mip -D LOBES=1 -D ANISOTROPY=1 -D HALF_TEXELS=0 "
       "-D LTC=0 -D LTC_METHOD=0 -D LIGHT_VERTICES=4 -D CLIPLESS=0 -D LIGHT_TEXTURE=0 -D "
       "MULTISCATTER=0 "
       "-D LOBE_MASKING=0 -D METAL_COMPENSATION=0 -D GRIDS=2 -D BINOMIAL=0 -D "
@@ -55,9 +55,9 @@ TEST(KernelConfig, OtherValuesAreWrittenAsEver) {
   EXPECT_PRED2(
       startsWith, buildOptions(config),
       "-D WIDTH=16 -D ALL_MATERIALS=1 -D GLINT=0 -D GROOVE=1 -D GLINT_COLOUR=1 -D SIZE_VARIATION=0 "
-      "-D CONE_LIGHTS=1 -D LIGHT_CONE=1 -D DIFFUSE=1 -D COUNT_CELLS=1 -D GLINT_METHOD=1 -D "
+      "-D CONE_LIGHTS=1 -D LIGHT_CONE=1 -D DIFFUSE=1 -D COUNT_CELLS=1 -D GLINT_METHOD=exact -D "
       "KA=64 -D GGX=1 "
-      "-D NORMAL_MAP=1 -D NORMAL_METHOD=5 -D LOBES=8 -D ANISOTROPY=16 -D HALF_TEXELS=1 "
+      "-D NORMAL_MAP=1 -D NORMAL_METHOD=gmm -D LOBES=8 -D ANISOTROPY=16 -D HALF_TEXELS=1 "
       "-D LTC=1 -D LTC_METHOD=2 -D LIGHT_VERTICES=8 -D CLIPLESS=1 -D LIGHT_TEXTURE=1 -D "
       "MULTISCATTER=3 "
       "-D LOBE_MASKING=1 -D METAL_COMPENSATION=1 -D GRIDS=1 -D BINOMIAL=3 -D "
@@ -146,9 +146,9 @@ TEST(KernelConfig, RangesAreChecked) {
               "ka " + std::to_string(ka) + " is out of range; it must be 1 to 64");
   }
   KernelConfig config;
-  config.method = static_cast<GlintMethod>(2);
+  config.ltc_method = static_cast<LtcMethod>(3);
   EXPECT_EQ(errorOf([&] { buildOptions(config); }),
-            "glint method 2 is unknown; it must be 0 (zk16) or 1 (exact)");
+            "area light method 3 is unknown; it must be 0 (original), 1 (tao21) or 2 (exact)");
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ void strip(Scene& scene) {
 void choose(const ProgramCall& call, KernelConfig& config) {
   const Material& material = call.material;
   config.glint = material.has_glints && call.options.glints && !call.truth && config.cone_lights;
-  config.size_variation = config.glint && material.glint.size_variation > 0;
+  config.size_variation = config.glint && material.params.glints.size_variation > 0;
   config.count_cells = config.glint && call.options.count_cells;
   setKnobs(call.options, &KernelConfig::glint, config);
 }
