@@ -40,7 +40,7 @@ AreaLight uprightLight(int corners) {
 void light(benchmark::State& state, int corners, bool clipless, bool diffuse, int lanes) {
   AreaLightProbe probe;
   probe.material = whiteSpecular();
-  if (diffuse) probe.material.albedo = whiteDiffuse().albedo;
+  if (diffuse) probe.material.surface.albedo = whiteDiffuse().surface.albedo;
   probe.lights = {uprightLight(corners)};
   probe.table = shippedLtcTable(reference::Ndf::kGgx);
   probe.width = lanes;

@@ -12,7 +12,7 @@
 // each by its own branches, and every lane keeps what its own material gave.
 WIDE vfloat3 shadeOwners(Shading shading, vint owner, size_t entry) {
   vfloat3 sum = {(vfloat)(0.0f), (vfloat)(0.0f), (vfloat)(0.0f)};
-  constant const GlintMaterial* materials = shading.material;
+  constant const MaterialParams* materials = shading.material;
 #if NORMAL_MAP
   constant const MipTexture* maps = shading.map;
 #endif
@@ -42,7 +42,7 @@ WIDE vfloat3 shadeOwners(Shading shading, vint owner, size_t entry) {
 // 2^31 where a limit cut the walk. With ALL_MATERIALS material, map and scatter are arrays over all
 // materials.
 kernel void shade(global const uint* planes, constant const FrameParams* frame,
-                  constant const GlintMaterial* material, constant const LightParams* lights,
+                  constant const MaterialParams* material, constant const LightParams* lights,
                   constant const float4* taps,
 #if NORMAL_MAP
                   constant const MipTexture* map, global const float4* map_texels,

@@ -97,17 +97,17 @@ WIDE SurfaceSample sampleSurface(const PixelSurface* surface, uint index,
 
 #if CONE_LIGHTS
 WIDE vfloat3 shadeSample(const SurfaceSample* sample, constant const FrameParams* frame,
-                         constant const GlintMaterial* material, constant const LightParams* lights,
+                         constant const MaterialParams* material, constant const LightParams* lights,
                          constant const float4* taps) {
   const vfloat3 ratio = {(vfloat)(1.0f), (vfloat)(1.0f), (vfloat)(1.0f)};
-  const SmithLambda lambda_view = smithLambda(sample->view, material->alpha_g);
+  const SmithLambda lambda_view = smithLambda(sample->view, material->surface.alpha_g);
   vfloat3 sum = {(vfloat)(0.0f), (vfloat)(0.0f), (vfloat)(0.0f)};
   for (uint i = 0; i < frame->light_count; ++i) {
     LightLobe lobe =
         evaluateLight(sample->frame, sample->view, lambda_view, material, &lights[i], taps);
     lobe.specular = sample->visible ? lobe.specular : (vfloat)(0.0f);
     lobe.schlick = sample->visible ? lobe.schlick : (vfloat)(0.0f);
-    addLight(lobe, ratio, material, &lights[i], &sum);
+    addLight(lobe, ratio, &material->surface, &lights[i], &sum);
   }
   return sum;
 }
@@ -134,7 +134,7 @@ WIDE void addToPlane(vfloat value, global float* sums, size_t i) {
 // Adds `sample_count` samples from number `sample_begin` on to `sums`: six planes of
 // frame->plane_stride entries, radiance (r, g, b) and its squares.
 kernel void truth(global const uint* planes, constant const FrameParams* frame,
-                  constant const GlintMaterial* material, constant const LightParams* lights,
+                  constant const MaterialParams* material, constant const LightParams* lights,
                   constant const float4* taps,
 #if NORMAL_MAP
                   constant const MipTexture* map, global const float4* normals,
@@ -168,7 +168,7 @@ kernel void truth(global const uint* planes, constant const FrameParams* frame,
 #endif
 #if LTC
     const vfloat3 place = samplePlace(&surface, &sample, depth, frame);
-    value = add3(value, sampleAreaLights(sample.frame, place, sample.view, sample.visible, material,
+    value = add3(value, sampleAreaLights(sample.frame, place, sample.view, sample.visible, &material->surface,
                                          sample.seed, area_lights,
                                          frame->area_light_count PICTURE_ARGUMENTS));
 #endif

@@ -12,20 +12,30 @@
 // any lane count never reads past the end and needs no tail code.
 #define GM_LIST_PADDING 64u
 
-// One glint material, in the paper's user parameters made absolute. [ZK16] Sect. 4.5
+// What every material has: its smooth lobe and what lies under it.
+typedef struct SurfaceMaterial {
+  float2 alpha_g;   // global roughness along u and v, (0, 1]
+  float intensity;  // overall scale of the specular lobe, >= 0
+  uint effects;     // EFFECT_* of the material; read by ALL_MATERIALS programs only
+  float4 f0;        // rgb reflectance at normal incidence; w unused
+  float4 albedo;    // rgb diffuse albedo; w unused
+} SurfaceMaterial;
+
+// Microdetails of one material, in the paper's user parameters made absolute. [ZK16] Sect. 4.5
 typedef struct GlintMaterial {
-  float2 alpha_g;                  // global Beckmann roughness along u and v, (0, 1]
-  float2 alpha_l;                  // roughness of one microdetail, absolute, (0, alpha_g]
+  float2 alpha_l;                  // Beckmann roughness of one microdetail, absolute, (0, alpha_g]
   float density;                   // microdetails per unit uv area, > 0
   float size_variation;            // standard deviation of the microdetail count factor, >= 0
-  float intensity;                 // overall scale of the specular lobe, >= 0
-  uint palette_count;              // colours in palette; 0 = uniform colour wheel
-  float4 f0;                       // rgb reflectance at normal incidence; w unused
-  float4 albedo;                   // rgb diffuse albedo; w unused
   float4 palette[GM_MAX_PALETTE];  // rgb albedo of a microdetail; w unused
-  uint effects;                    // EFFECT_* of the material; read by ALL_MATERIALS programs only
+  uint palette_count;              // colours in palette; 0 = uniform colour wheel
   uint unused[3];                  // 0
 } GlintMaterial;
+
+// One material as a launch reads it.
+typedef struct MaterialParams {
+  SurfaceMaterial surface;
+  GlintMaterial glints;
+} MaterialParams;
 
 // What a material calls for, named like the switches of config.clh.
 #define EFFECT_GLINT 1u

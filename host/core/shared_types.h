@@ -17,7 +17,9 @@ struct alignas(16) float4 {
 #include "kernels/types.h"
 
 static_assert(sizeof(float2) == 8 && sizeof(float4) == 16);
-static_assert(sizeof(GlintMaterial) == 208);
+static_assert(sizeof(SurfaceMaterial) == 48);
+static_assert(sizeof(GlintMaterial) == 160);
+static_assert(sizeof(MaterialParams) == 208);
 static_assert(sizeof(ConeLight) == 32);
 static_assert(sizeof(LightParams) == 48);
 static_assert(sizeof(FrameParams) == 80);
@@ -25,8 +27,9 @@ static_assert(sizeof(MipTexture) == 80);
 static_assert(sizeof(AreaLightParams) == 176);
 
 /// Sizes in the order in which probe.cl's `probeTypeSizes` reports them.
-inline constexpr std::array<std::uint32_t, 6> kSharedTypeSizes = {
-    sizeof(GlintMaterial), sizeof(ConeLight),  sizeof(LightParams),
-    sizeof(FrameParams),   sizeof(MipTexture), sizeof(AreaLightParams)};
+inline constexpr std::array<std::uint32_t, 8> kSharedTypeSizes = {
+    sizeof(MaterialParams),  sizeof(ConeLight),    sizeof(LightParams),
+    sizeof(FrameParams),     sizeof(MipTexture),   sizeof(AreaLightParams),
+    sizeof(SurfaceMaterial), sizeof(GlintMaterial)};
 
 }  // namespace glintmark

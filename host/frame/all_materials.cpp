@@ -44,12 +44,12 @@ MaterialArrays uploadMaterialArrays(Device& device, const Scene& scene,
                                     const ShadingOptions& options, const KernelConfig& config,
                                     NormalTextures& textures) {
   MaterialArrays arrays;
-  std::vector<GlintMaterial> materials;
+  std::vector<MaterialParams> materials;
   std::vector<MultiscatterMaterial> scatter;
   for (const Material& material : scene.materials) {
     const KernelConfig own = configFor(material, scene, options, config.width);
-    materials.push_back(material.glint);
-    materials.back().effects = effectBits(own);
+    materials.push_back(material.params);
+    materials.back().surface.effects = effectBits(own);
     scatter.push_back(prepareMultiscatter(material, own));
   }
   arrays.materials = upload(device, materials, "all materials");

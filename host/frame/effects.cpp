@@ -71,14 +71,14 @@ void setAreaLights(const Material& material, const Scene& scene, const ShadingOp
 
 KernelConfig configFor(const Material& material, const Scene& scene, const ShadingOptions& options,
                        int lanes) {
-  const auto& albedo = material.glint.albedo;
+  const auto& albedo = material.params.surface.albedo;
   KernelConfig config;
   config.width = lanes;
   config.cone_lights = !scene.lights.empty();
   config.glint = material.has_glints && options.glints && !options.truth && config.cone_lights;
   config.groove = config.glint && material.has_grooves;
   config.glint_colour = config.glint && material.has_colour;
-  config.size_variation = config.glint && material.glint.size_variation > 0;
+  config.size_variation = config.glint && material.params.glints.size_variation > 0;
   config.light_cone = std::ranges::any_of(
       scene.lights, [](const ConeLight& light) { return light.direction.w > 0; });
   config.diffuse = albedo.x > 0 || albedo.y > 0 || albedo.z > 0;

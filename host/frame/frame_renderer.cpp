@@ -158,7 +158,7 @@ void FrameRenderer::Impl::rasterize(Band& band) {
 
 // The buffers of one material.
 void FrameRenderer::Impl::setMaterial(Launch& launch, const Material& material) {
-  launch.material = uploadItems(device, std::vector{material.glint}, "a material");
+  launch.material = uploadItems(device, std::vector{material.params}, "a material");
   if (launch.config.normal_map) {
     const NormalTexture& texture = textures->get(material.normal_map->map, launch.config,
                                                  options.mixture_order, options.mixture_iterations);

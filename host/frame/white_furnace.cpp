@@ -82,8 +82,9 @@ double whiteFurnace(Device& device, const Material& material, double view_cosine
   scene.views = {view};
   const glm::dvec3 towards = glm::normalize(view.eye - view.target);
   const glm::dvec3 local(towards.z, towards.x, towards.y);  // x' = z, y' = x, z' = y
-  const std::vector<PartOfSky> sky =
-      material.glint.intensity > 0 ? mirroredSky(local, material.glint.alpha_g.x) : evenSky();
+  const std::vector<PartOfSky> sky = material.params.surface.intensity > 0
+                                         ? mirroredSky(local, material.params.surface.alpha_g.x)
+                                         : evenSky();
   double sum = 0;
   for (std::size_t first = 0; first < sky.size(); first += kLightsPerFrame) {
     scene.lights.clear();

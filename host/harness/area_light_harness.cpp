@@ -47,7 +47,7 @@ std::vector<glm::vec3> lightPoints(const AreaLightProbe& probe,
   const std::size_t stride = paddedCount(points.size());
   std::size_t vertices = 3;
   for (const AreaLight& light : probe.lights) vertices = std::max(vertices, light.vertices.size());
-  const bool diffuse = probe.material.albedo.x > 0;
+  const bool diffuse = probe.material.surface.albedo.x > 0;
   Buffer out(KernelBench::shared().device, 3 * stride * 4, "probe output");
   const std::vector<KernelArg> args = {upload(pointPlanes(points, stride)),
                                        upload(std::vector{probe.material}),
@@ -92,18 +92,18 @@ LtcTable identityTable() {
   return table;
 }
 
-GlintMaterial whiteSpecular() {
-  GlintMaterial material{};
-  material.alpha_g = material.alpha_l = {1, 1};
-  material.intensity = 1;
-  material.f0 = {1, 1, 1, 0};
+MaterialParams whiteSpecular() {
+  MaterialParams material{};
+  material.surface.alpha_g = material.glints.alpha_l = {1, 1};
+  material.surface.intensity = 1;
+  material.surface.f0 = {1, 1, 1, 0};
   return material;
 }
 
-GlintMaterial whiteDiffuse() {
-  GlintMaterial material = whiteSpecular();
-  material.intensity = 0;
-  material.albedo = {1, 1, 1, 0};
+MaterialParams whiteDiffuse() {
+  MaterialParams material = whiteSpecular();
+  material.surface.intensity = 0;
+  material.surface.albedo = {1, 1, 1, 0};
   return material;
 }
 

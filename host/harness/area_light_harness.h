@@ -19,7 +19,7 @@ struct HandMadePoint {
 };
 
 struct AreaLightProbe {
-  GlintMaterial material{};
+  MaterialParams material{};
   std::vector<AreaLight> lights;
   LtcTable table;
   int width = 16;
@@ -38,8 +38,8 @@ std::vector<float> footprintAlphas(LtcMethod method, float micro, const std::vec
 LtcTable identityTable();
 
 /// White, without Fresnel; only one of the two lobes.
-GlintMaterial whiteSpecular();
-GlintMaterial whiteDiffuse();
+MaterialParams whiteSpecular();
+MaterialParams whiteDiffuse();
 
 AreaLight polygonLight(std::vector<glm::dvec3> vertices, bool two_sided = false);
 

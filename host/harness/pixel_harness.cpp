@@ -128,14 +128,14 @@ ShadedPixels shadePixels(const HandMadeFrame& frame, KernelConfig config) {
   return result;
 }
 
-GlintMaterial simpleMaterial(float2 alpha_g, float2 alpha_l, float density, float size_variation) {
-  GlintMaterial material{};
-  material.alpha_g = alpha_g;
-  material.alpha_l = alpha_l;
-  material.density = density;
-  material.size_variation = size_variation;
-  material.intensity = 1;
-  material.f0 = {1, 1, 1, 0};
+MaterialParams simpleMaterial(float2 alpha_g, float2 alpha_l, float density, float size_variation) {
+  MaterialParams material{};
+  material.surface.alpha_g = alpha_g;
+  material.glints.alpha_l = alpha_l;
+  material.glints.density = density;
+  material.glints.size_variation = size_variation;
+  material.surface.intensity = 1;
+  material.surface.f0 = {1, 1, 1, 0};
   return material;
 }
 
@@ -158,10 +158,10 @@ PackedFrame flatFrame() {
   return packFrame({0, 0, 1}, {1, 0, 0}, false);
 }
 
-glm::dvec2 deviceStretch(const GlintMaterial& material) {
+glm::dvec2 deviceStretch(const MaterialParams& material) {
   Device& device = KernelBench::shared().device;
-  const std::vector<float4> alphas = {
-      {material.alpha_g.x, material.alpha_g.y, material.alpha_l.x, material.alpha_l.y}};
+  const std::vector<float4> alphas = {{material.surface.alpha_g.x, material.surface.alpha_g.y,
+                                       material.glints.alpha_l.x, material.glints.alpha_l.y}};
   Buffer out(device, 8, "stretch");
   const KernelArg args[] = {upload(device, alphas), out, std::uint32_t{1}};
   probeKernel("probes/probe_glint.cl", "probeStretch", "-D WIDTH=1").launch(args, 1, kLocalSize);
@@ -170,14 +170,14 @@ glm::dvec2 deviceStretch(const GlintMaterial& material) {
   return {stretch.x, stretch.y};
 }
 
-reference::Glints referenceGlints(const GlintMaterial& material, bool groove) {
+reference::Glints referenceGlints(const MaterialParams& material, bool groove) {
   reference::Glints glints;
-  glints.alpha_g = {material.alpha_g.x, material.alpha_g.y};
-  glints.alpha_l = {material.alpha_l.x, material.alpha_l.y};
-  glints.density = material.density;
-  glints.size_variation = material.size_variation;
-  glints.intensity = material.intensity;
-  glints.f0 = toDouble(material.f0);
+  glints.alpha_g = {material.surface.alpha_g.x, material.surface.alpha_g.y};
+  glints.alpha_l = {material.glints.alpha_l.x, material.glints.alpha_l.y};
+  glints.density = material.glints.density;
+  glints.size_variation = material.glints.size_variation;
+  glints.intensity = material.surface.intensity;
+  glints.f0 = toDouble(material.surface.f0);
   glints.groove = groove;
   return glints;
 }

@@ -42,7 +42,7 @@ struct HandMadePixel {
 struct HandMadeFrame {
   std::vector<HandMadePixel> pixels;
   glm::dvec3 ray_origin{0, 0, -1}, ray_dx{0}, ray_dy{0};  // away from the eye
-  GlintMaterial material{};
+  MaterialParams material{};
   std::vector<ConeLight> lights;
   /// Of kernels with multiple scattering or metal compensation.
   std::optional<MultiscatterMaterial> scatter{};
@@ -58,8 +58,8 @@ struct ShadedPixels {
 ShadedPixels shadePixels(const HandMadeFrame& frame, KernelConfig config);
 
 /// A material with one roughness per axis, white F0, no diffuse term, no colours.
-GlintMaterial simpleMaterial(float2 alpha_g, float2 alpha_l, float density,
-                             float size_variation = 0);
+MaterialParams simpleMaterial(float2 alpha_g, float2 alpha_l, float density,
+                              float size_variation = 0);
 ConeLight coneLight(const glm::dvec3& direction, double half_angle_rad = 0, double irradiance = 1);
 
 /// u = coordinate split as the planes store it.
@@ -68,10 +68,10 @@ reference::FixedCoordinate fixedCoordinate(double coordinate);
 PackedFrame flatFrame();
 
 /// The kernels' grid stretch of a material (its bits are taken over by the reference).
-glm::dvec2 deviceStretch(const GlintMaterial& material);
+glm::dvec2 deviceStretch(const MaterialParams& material);
 
 /// The reference's view of the same things.
-reference::Glints referenceGlints(const GlintMaterial& material, bool groove = false);
+reference::Glints referenceGlints(const MaterialParams& material, bool groove = false);
 reference::SurfacePixel referencePixel(const HandMadeFrame& frame, const HandMadePixel& pixel);
 std::vector<reference::PointLight> referenceLights(const HandMadeFrame& frame);
 

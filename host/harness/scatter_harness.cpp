@@ -33,7 +33,7 @@ std::vector<DirectionPair> denseDirections() {
 Material roughMaterial(DiffuseModel model, double alpha, double albedo, double masking) {
   Material material;
   const auto a = static_cast<float>(albedo);
-  material.glint.albedo = {a, a, a, 0};
+  material.params.surface.albedo = {a, a, a, 0};
   material.diffuse_model = model;
   material.diffuse_roughness = alpha;
   material.diffuse_masking = masking;

@@ -11,11 +11,11 @@ namespace glintmark {
 inline Material glintMaterial() {
   Material material;
   material.name = "glitter";
-  material.glint.alpha_g = {0.3f, 0.3f};
-  material.glint.alpha_l = {0.1f, 0.1f};
-  material.glint.density = 1e7f;
-  material.glint.intensity = 1;
-  material.glint.f0 = {0.9f, 0.8f, 0.7f, 0};
+  material.params.surface.alpha_g = {0.3f, 0.3f};
+  material.params.glints.alpha_l = {0.1f, 0.1f};
+  material.params.glints.density = 1e7f;
+  material.params.surface.intensity = 1;
+  material.params.surface.f0 = {0.9f, 0.8f, 0.7f, 0};
   return material;
 }
 
@@ -62,12 +62,12 @@ inline Scene mappedFloor(NormalMap map) {
   Material material;
   material.name = "metal";
   material.has_glints = false;
-  material.glint.alpha_g = {0.3f, 0.3f};
-  material.glint.alpha_l = {0.1f, 0.1f};
-  material.glint.density = 1;
-  material.glint.intensity = 1;
-  material.glint.f0 = {0.9f, 0.8f, 0.7f, 0};
-  material.glint.albedo = {0.1f, 0.1f, 0.1f, 0};
+  material.params.surface.alpha_g = {0.3f, 0.3f};
+  material.params.glints.alpha_l = {0.1f, 0.1f};
+  material.params.glints.density = 1;
+  material.params.surface.intensity = 1;
+  material.params.surface.f0 = {0.9f, 0.8f, 0.7f, 0};
+  material.params.surface.albedo = {0.1f, 0.1f, 0.1f, 0};
   material.normal_map = {std::make_shared<const NormalMap>(std::move(map)), 4};
   scene.materials = {material};
   addFloor(scene, -8, 8, 0);

@@ -78,8 +78,8 @@ void readPalette(SceneTable& table, Material& material) {
     table.fail("palette",
                fmt::format("has {} colours, expected 1 to {}", colours.size(), GM_MAX_PALETTE));
   }
-  material.glint.palette_count = static_cast<uint>(colours.size());
-  std::transform(colours.begin(), colours.end(), material.glint.palette, toFloat4);
+  material.params.glints.palette_count = static_cast<uint>(colours.size());
+  std::transform(colours.begin(), colours.end(), material.params.glints.palette, toFloat4);
 }
 
 Material readMaterial(SceneTable& table, const SceneRequest& request) {
@@ -88,15 +88,16 @@ Material readMaterial(SceneTable& table, const SceneRequest& request) {
   readType(table, material);
   const glm::dvec2 alpha_g = table.vector2("global_roughness", glm::dvec2(0.3), kFraction);
   const glm::dvec2 micro = table.vector2("micro_roughness", glm::dvec2(0.1), kFraction);
-  material.glint.alpha_g = toFloat2(alpha_g);
-  material.glint.alpha_l = toFloat2(alpha_g * micro);
-  material.glint.density =
+  material.params.surface.alpha_g = toFloat2(alpha_g);
+  material.params.glints.alpha_l = toFloat2(alpha_g * micro);
+  material.params.glints.density =
       static_cast<float>(std::pow(10.0, table.number("log_density", 6, kLogDensity)));
-  material.glint.size_variation =
+  material.params.glints.size_variation =
       static_cast<float>(table.number("size_variation", 0, kNotNegative));
-  material.glint.intensity = static_cast<float>(table.number("intensity", 1, kNotNegative));
-  material.glint.f0 = toFloat4(table.vector3("f0", glm::dvec3(0.04), kReflectance));
-  material.glint.albedo = toFloat4(table.vector3("albedo", glm::dvec3(0), kReflectance));
+  material.params.surface.intensity =
+      static_cast<float>(table.number("intensity", 1, kNotNegative));
+  material.params.surface.f0 = toFloat4(table.vector3("f0", glm::dvec3(0.04), kReflectance));
+  material.params.surface.albedo = toFloat4(table.vector3("albedo", glm::dvec3(0), kReflectance));
   readPalette(table, material);
   readNdf(table, material);
   readScattering(table, material);

@@ -71,7 +71,7 @@ enum class Compensation : int { kOff, kLobe, kSimulated };
 /// [ZK16] Sect. 4.5, ready for the device, with what selects the effects.
 struct Material {
   std::string name;
-  GlintMaterial glint{};
+  MaterialParams params{};
   bool has_glints = true;    // false: a smooth Beckmann lobe of roughness alpha_g
   bool has_grooves = false;  // 1-D NDF, [ZK16] Eq. 6: alpha_l.x is not used
   bool has_colour = false;   // coloured microdetails

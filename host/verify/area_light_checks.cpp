@@ -107,7 +107,7 @@ std::vector<HandMadePoint> hardViews() {
 Finding hardLight(const HardLight& light, int lanes) {
   AreaLightProbe probe;
   probe.material = whiteSpecular();
-  probe.material.albedo = {1, 1, 1, 0};
+  probe.material.surface.albedo = {1, 1, 1, 0};
   probe.table = shippedGgx();
   probe.lights = {polygonLight(light.vertices, true)};
   probe.width = lanes;

@@ -28,11 +28,16 @@ Finding structLayouts(int) {
   Finding finding(0);
   addDifferences<kSharedTypeSizes.size()>(finding, "probeTypeSizes", kSharedTypeSizes);
   constexpr std::array<std::uint32_t, 10> kOffsets = {
-      offsetof(GlintMaterial, alpha_l),       offsetof(GlintMaterial, density),
-      offsetof(GlintMaterial, palette_count), offsetof(GlintMaterial, f0),
-      offsetof(GlintMaterial, palette),       offsetof(ConeLight, irradiance),
-      offsetof(LightParams, variance),        offsetof(LightParams, tap_count),
-      offsetof(FrameParams, light_count),     offsetof(FrameParams, plane_stride)};
+      offsetof(MaterialParams, glints.alpha_l),
+      offsetof(MaterialParams, glints.density),
+      offsetof(MaterialParams, glints.palette_count),
+      offsetof(MaterialParams, surface.f0),
+      offsetof(MaterialParams, glints.palette),
+      offsetof(ConeLight, irradiance),
+      offsetof(LightParams, variance),
+      offsetof(LightParams, tap_count),
+      offsetof(FrameParams, light_count),
+      offsetof(FrameParams, plane_stride)};
   addDifferences<kOffsets.size()>(finding, "probeTypeOffsets", kOffsets);
   return finding;
 }

@@ -166,10 +166,10 @@ Finding densityToInfinity(const GlintKind& kind, int lanes) {
 Finding palette(int lanes) {
   HandMadeFrame frame = spreadPixels(1 << 16, 3e-3, 3);
   frame.material = simpleMaterial({0.3f, 0.3f}, {0.15f, 0.15f}, 1e7f, 0);
-  frame.material.palette_count = 3;
-  frame.material.palette[0] = {0.9f, 0.1f, 0.2f, 0};
-  frame.material.palette[1] = {0.1f, 0.8f, 0.3f, 0};
-  frame.material.palette[2] = {0.2f, 0.3f, 0.7f, 0};
+  frame.material.glints.palette_count = 3;
+  frame.material.glints.palette[0] = {0.9f, 0.1f, 0.2f, 0};
+  frame.material.glints.palette[1] = {0.1f, 0.8f, 0.3f, 0};
+  frame.material.glints.palette[2] = {0.2f, 0.3f, 0.7f, 0};
   frame.lights = {coneLight(lightForSlope(0.2, 0.3))};
   KernelConfig config;
   config.width = lanes;
@@ -245,8 +245,8 @@ Finding coneDiffuse(double half_deg, int lanes) {
     const glm::dvec3 axis = direction(light_deg, 160);
     HandMadeFrame frame = onePixel(axis, {0, 0, 1}, half_deg * kDegree);
     frame.material = simpleMaterial({0.3f, 0.3f}, {0.05f, 0.05f}, 1e6f);
-    frame.material.intensity = 0;
-    frame.material.albedo = {1, 1, 1, 0};
+    frame.material.surface.intensity = 0;
+    frame.material.surface.albedo = {1, 1, 1, 0};
     const double want = reference::coneDiffuse({axis, half_deg * kDegree}, kConeSamples);
     finding.add(std::abs(kernelSmooth(frame, true, lanes) - want));
   }

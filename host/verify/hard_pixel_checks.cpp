@@ -123,7 +123,7 @@ void zeroDerivatives(HardCase& hard) {
 
 void tinyDerivatives(HardCase& hard) {
   HandMadeFrame frame = plainFrame(64);
-  frame.material.density = 1e16f;
+  frame.material.glints.density = 1e16f;
   for (std::size_t i = 0; i < 64; ++i) {
     const double s = std::ldexp(1.0, -16 - static_cast<int>(i % 8));
     frame.pixels[i].footprint.duv_dx = {s, 0};
@@ -141,7 +141,7 @@ void hugeDerivatives(HardCase& hard) {
     frame.pixels[i].footprint.duv_dx = {s, 0.1 * s};
     frame.pixels[i].footprint.duv_dy = {-0.1 * s, s};
   }
-  frame.material.density = 1e-6f;
+  frame.material.glints.density = 1e-6f;
   hard.shadeSanely(frame);
 }
 
@@ -177,7 +177,7 @@ void grazingViews(HardCase& hard) {
 
 void onePixelCoversABillionMicrodetailCells(HardCase& hard) {
   HandMadeFrame frame = plainFrame(64);
-  frame.material.density = 1e9f;
+  frame.material.glints.density = 1e9f;
   for (auto& pixel : frame.pixels) {
     pixel.footprint.duv_dx = {1.0, 0.2};
     pixel.footprint.duv_dy = {-0.1, 1.1};
@@ -197,14 +197,14 @@ void oneLongPixelCoversManyCells(HardCase& hard) {
 
 void oneMicrodetailCoversTheScreen(HardCase& hard) {
   HandMadeFrame frame = plainFrame(256);
-  frame.material.density = 1e-3f;
+  frame.material.glints.density = 1e-3f;
   hard.shadeSanely(frame);
   hard.expectReference(frame);
 }
 
 void farTextureCoordinatesWithFineCells(HardCase& hard) {
   HandMadeFrame frame = plainFrame(256);
-  frame.material.density = 0x1p40f;
+  frame.material.glints.density = 0x1p40f;
   for (std::size_t i = 0; i < 256; ++i) {
     auto& f = frame.pixels[i].footprint;
     const double sign = i % 2 == 0 ? 1 : -1;
@@ -256,7 +256,7 @@ void seamsAndMirroredCharts(HardCase& hard) {
 
 void microRoughnessEqualsGlobalRoughness(HardCase& hard) {
   HandMadeFrame frame = plainFrame(256);
-  frame.material.alpha_l = frame.material.alpha_g;
+  frame.material.glints.alpha_l = frame.material.surface.alpha_g;
   hard.expectReference(frame);
 }
 
@@ -266,7 +266,7 @@ void roughnessNearZero(HardCase& hard) {
   hard.shadeSanely(frame);
   frame.ray_origin = {-0.3 * 0.9, -0.2 * 0.9, -0.81};  // about the mirror direction
   hard.shadeSanely(frame);
-  frame.material.alpha_l = {1e-5f, 1e-5f};
+  frame.material.glints.alpha_l = {1e-5f, 1e-5f};
   hard.shadeSanely(frame);
 }
 
@@ -294,9 +294,9 @@ void probabilityNearZeroAndOne(HardCase& hard) {
 void numberOfMicrodetailsFromNothingToABillion(HardCase& hard) {
   for (const float density : {1e-9f, 1e-3f, 1.f, 1e4f, 1e8f, 1e12f, 1e14f, 3e38f}) {
     HandMadeFrame frame = plainFrame(128);
-    frame.material.density = density;
+    frame.material.glints.density = density;
     for (const float variation : {0.f, 100.f}) {
-      frame.material.size_variation = variation;
+      frame.material.glints.size_variation = variation;
       hard.shadeSanely(frame);
     }
   }
@@ -337,11 +337,11 @@ void lightBelowTheHorizon(HardCase& hard) {
 void albedoZeroAndOne(HardCase& hard) {
   HandMadeFrame frame = plainFrame(64);
   frame.lights = {coneLight({0, 0, 1})};
-  frame.material.intensity = 0;
+  frame.material.surface.intensity = 0;
   KernelConfig c = hard.config();
   c.diffuse = true;
   hard.expectRadiance(hard.shadeSanely(frame, c), 0);
-  frame.material.albedo = {1, 1, 1, 0};
+  frame.material.surface.albedo = {1, 1, 1, 0};
   hard.expectRadiance(hard.shadeSanely(frame, c), std::numbers::inv_pi);
 }
 

@@ -62,9 +62,9 @@ HandMadeFrame scatterFrame(const ScatterCase& c, const KernelConfig& config) {
   frame.ray_dx = {-kTangentStep, 0, 0};
   frame.ray_dy = {-kTangentStep * 0x1p-16, 0, 0};
   frame.material = simpleMaterial({0.5f, 0.5f}, {0.5f, 0.5f}, 1);
-  frame.material.intensity = 0;
+  frame.material.surface.intensity = 0;
   const auto rho = static_cast<float>(c.albedo);
-  frame.material.albedo = {rho, rho, rho, 0};
+  frame.material.surface.albedo = {rho, rho, rho, 0};
   const double sine = std::sqrt(1 - c.light_cosine * c.light_cosine);
   for (int k = 0; k < c.lights; ++k) {
     const double phi = 2 * kPi * (k + 0.25) / c.lights;
@@ -72,7 +72,7 @@ HandMadeFrame scatterFrame(const ScatterCase& c, const KernelConfig& config) {
         coneLight({sine * std::cos(phi), sine * std::sin(phi), c.light_cosine}, 0, 1.0 / c.lights));
   }
   Material material;
-  material.glint = frame.material;
+  material.params = frame.material;
   material.diffuse_model = c.model;
   material.diffuse_roughness = c.alpha;
   frame.scatter = prepareMultiscatter(material, config);
@@ -90,7 +90,7 @@ KernelConfig scatterConfig(DiffuseModel model, int lanes) {
 
 // Radiance over irradiance at normal incidence, in double precision.
 double expectedRadiance(const Material& material, const LobeModel& lobes, const DirectionPair& d) {
-  const double albedo = material.glint.albedo.x;
+  const double albedo = material.params.surface.albedo.x;
   if (material.diffuse_model != DiffuseModel::kEon)
     return lobes.energy(albedo, d.light.z, d.view.z) / d.view.z * d.light.z;
   const double r = multiscatterData().eon.at(material.diffuse_roughness);
@@ -117,9 +117,9 @@ void addMaterial(Finding& finding, const Material& material,
       finding.require(
           false, fmt::format("alpha {}, cosines {} and {}: {} + {}", material.diffuse_roughness,
                              pairs[i].light.z, pairs[i].view.z, single, multiple));
-    finding.require(material.glint.albedo.x > 0 || sum == 0, "black surfaces reflect");
+    finding.require(material.params.surface.albedo.x > 0 || sum == 0, "black surfaces reflect");
     // One albedo is enough for the comparison: it is a factor per order.
-    if (material.glint.albedo.x != 0.5f || pairs[i].view.z < kLeastViewCosine ||
+    if (material.params.surface.albedo.x != 0.5f || pairs[i].view.z < kLeastViewCosine ||
         (pairs[i].light.z > 0 && pairs[i].light.z < kLeastLightCosine))
       continue;
     const double error = std::abs(sum - expectedRadiance(material, lobes, pairs[i]));

@@ -16,25 +16,27 @@ typedef float16 probe_float;
 
 // Sizes in the order of kSharedTypeSizes, host/core/shared_types.h. One work-item.
 __kernel void probeTypeSizes(__global uint* out) {
-  out[0] = (uint)sizeof(GlintMaterial);
+  out[0] = (uint)sizeof(MaterialParams);
   out[1] = (uint)sizeof(ConeLight);
   out[2] = (uint)sizeof(LightParams);
   out[3] = (uint)sizeof(FrameParams);
   out[4] = (uint)sizeof(MipTexture);
   out[5] = (uint)sizeof(AreaLightParams);
+  out[6] = (uint)sizeof(SurfaceMaterial);
+  out[7] = (uint)sizeof(GlintMaterial);
 }
 
 // Byte offsets of members that follow a change of alignment. One work-item.
 __kernel void probeTypeOffsets(__global uint* out) {
-  GlintMaterial material;
+  MaterialParams material;
   ConeLight light;
   LightParams ready_light;
   FrameParams params;
-  out[0] = OFFSET_OF(material, alpha_l);
-  out[1] = OFFSET_OF(material, density);
-  out[2] = OFFSET_OF(material, palette_count);
-  out[3] = OFFSET_OF(material, f0);
-  out[4] = OFFSET_OF(material, palette);
+  out[0] = OFFSET_OF(material, glints.alpha_l);
+  out[1] = OFFSET_OF(material, glints.density);
+  out[2] = OFFSET_OF(material, glints.palette_count);
+  out[3] = OFFSET_OF(material, surface.f0);
+  out[4] = OFFSET_OF(material, glints.palette);
   out[5] = OFFSET_OF(light, irradiance);
   out[6] = OFFSET_OF(ready_light, variance);
   out[7] = OFFSET_OF(ready_light, tap_count);

@@ -14,7 +14,7 @@ WIDE vfloat3 loadVector(global const float* p, size_t i, size_t stride) {
 }
 
 // points: ten planes of `count` entries: position, normal, view, alpha. out: r, g, b.
-kernel void probeAreaLights(global const float* points, constant const GlintMaterial* material,
+kernel void probeAreaLights(global const float* points, constant const MaterialParams* material,
                             constant const AreaLightParams* lights, global const float* table,
 #if LIGHT_TEXTURE
                             constant const MipTexture* pictures,
@@ -28,7 +28,7 @@ kernel void probeAreaLights(global const float* points, constant const GlintMate
   point.view = loadVector(points, 6 * count + FIRST, count);
   point.alpha = loadFloat(points, 9 * count + FIRST);
   const vfloat3 sum =
-      shadeAreaLights(point, material, lights, light_count, table, table_size PICTURE_ARGUMENTS);
+      shadeAreaLights(point, &material->surface, lights, light_count, table, table_size PICTURE_ARGUMENTS);
   storeFloat(sum.x, out, FIRST);
   storeFloat(sum.y, out, count + FIRST);
   storeFloat(sum.z, out, 2 * count + FIRST);

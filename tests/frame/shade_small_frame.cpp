@@ -17,8 +17,8 @@ int main(int argc, char** argv) {
     Scene scene = floorScene();
     addFloor(scene, 8, 16, 0);
     scene.materials[0].has_colour = true;
-    scene.materials[0].glint.size_variation = 1;
-    scene.materials[0].glint.albedo = {0.1f, 0.1f, 0.1f, 0};
+    scene.materials[0].params.glints.size_variation = 1;
+    scene.materials[0].params.surface.albedo = {0.1f, 0.1f, 0.1f, 0};
     scene.lights[0].direction.w = 0.05f;
 
     ShadingOptions options;

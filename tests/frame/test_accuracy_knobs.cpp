@@ -43,7 +43,7 @@ double relativeDifference(const Image& a, const Image& b) {
 // Some hundred microdetails under a pixel, of which a few reflect: neither rare nor a crowd.
 Scene sparseScene() {
   Scene scene = floorScene();
-  scene.materials[0].glint.density = 3e5f;
+  scene.materials[0].params.glints.density = 3e5f;
   return scene;
 }
 

@@ -33,13 +33,13 @@ Scene mixedScene() {
              i % 6);
   Material smooth = scene.materials[0];
   smooth.has_glints = false;
-  smooth.glint.albedo = {0.4f, 0.3f, 0.2f, 0};
+  smooth.params.surface.albedo = {0.4f, 0.3f, 0.2f, 0};
   Material glints = scene.materials[0], grooves = glints, mapped = smooth, rough = smooth,
            metal = smooth;
   glints.has_colour = true;
-  glints.glint.size_variation = 1;
+  glints.params.glints.size_variation = 1;
   grooves.has_grooves = true;
-  grooves.glint.alpha_l = {0.3f, 0.05f};
+  grooves.params.glints.alpha_l = {0.3f, 0.05f};
   mapped.normal_map = NormalMapSource{
       std::make_shared<NormalMap>(generateNormalMap({.kind = "bumps", .size_px = 32})), 4};
   rough.diffuse_model = DiffuseModel::kRefit;
@@ -258,7 +258,7 @@ TEST(OneForAll, MaterialsThatDifferInAChoiceAreAnError) {
   }
   scene = mixedScene();
   scene.materials[4].diffuse_model = DiffuseModel::kEon;
-  scene.materials[4].glint.albedo = {0.5f, 0.5f, 0.5f, 0};
+  scene.materials[4].params.surface.albedo = {0.5f, 0.5f, 0.5f, 0};
   EXPECT_THROW(configForAll(scene, smallOptions(), 16), Error);
   ShadingOptions counting = smallOptions();
   counting.count_cells = true;

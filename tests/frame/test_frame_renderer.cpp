@@ -72,8 +72,8 @@ TEST(FrameRenderer, ScenesDecideTheSwitches) {
                config.diffuse || config.count_cells);
   scene.lights[0].direction.w = 0.01f;
   scene.materials[0].has_grooves = scene.materials[0].has_colour = true;
-  scene.materials[0].glint.size_variation = 1;
-  scene.materials[0].glint.albedo.y = 0.1f;
+  scene.materials[0].params.glints.size_variation = 1;
+  scene.materials[0].params.surface.albedo.y = 0.1f;
   options.count_cells = true;
   config = configFor(scene.materials[0], scene, options, 16);
   EXPECT_TRUE(config.groove && config.glint_colour && config.size_variation && config.light_cone &&
@@ -142,10 +142,10 @@ TEST(FrameRenderer, EachMaterialHasItsOwnKernel) {
   Material paint;
   paint.name = "paint";
   paint.has_glints = false;
-  paint.glint.alpha_g = paint.glint.alpha_l = {0.3f, 0.3f};
-  paint.glint.f0 = {0.04f, 0.04f, 0.04f, 0};
-  paint.glint.albedo = {0.5f, 0.25f, 0, 0};
-  paint.glint.intensity = 0;
+  paint.params.surface.alpha_g = paint.params.glints.alpha_l = {0.3f, 0.3f};
+  paint.params.surface.f0 = {0.04f, 0.04f, 0.04f, 0};
+  paint.params.surface.albedo = {0.5f, 0.25f, 0, 0};
+  paint.params.surface.intensity = 0;
   scene.materials.push_back(paint);
   ShadingOptions options = smallOptions();
   options.count_cells = true;
@@ -207,7 +207,7 @@ TEST(FrameRenderer, SubPixelMotionIsNoSceneCut) {
   // The camera moves by a quarter of a pixel: the image of dense glints changes far less than
   // between two places of the floor.
   Scene scene = floorScene();
-  scene.materials[0].glint.density = 1e6f;
+  scene.materials[0].params.glints.density = 1e6f;
   const View still = lookingDown(45);
   const double pixel = 2 * std::tan(10 * M_PI / 180) * 3 / 90;
   const auto moved = [&](double pixels) {

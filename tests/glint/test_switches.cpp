@@ -61,7 +61,7 @@ TEST(Switches, ConeOfNoWidthIsAPoint) {
 
 TEST(Switches, SizeVariationOfZeroIsNone) {
   HandMadeFrame frame = testFrame();
-  frame.material.size_variation = 0;
+  frame.material.glints.size_variation = 0;
   KernelConfig config = baseConfig();
   const ShadedPixels on = shadePixels(frame, config);
   config.size_variation = false;
@@ -77,8 +77,8 @@ TEST(Switches, BlackAlbedoIsNoDiffuseTerm) {
 
 TEST(Switches, OneWhiteColourIsNoColour) {
   HandMadeFrame frame = testFrame();
-  frame.material.palette_count = 1;
-  frame.material.palette[0] = {1, 1, 1, 0};
+  frame.material.glints.palette_count = 1;
+  frame.material.glints.palette[0] = {1, 1, 1, 0};
   KernelConfig config = baseConfig();
   const ShadedPixels off = shadePixels(frame, config);
   config.glint_colour = true;

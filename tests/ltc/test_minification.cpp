@@ -26,9 +26,9 @@ Scene bumpyScene(bool mapped) {
   material.name = "metal";
   material.has_glints = false;
   material.ggx = true;
-  material.glint.alpha_g = material.glint.alpha_l = {0.05f, 0.05f};
-  material.glint.intensity = 1;
-  material.glint.f0 = {1, 1, 1, 0};
+  material.params.surface.alpha_g = material.params.glints.alpha_l = {0.05f, 0.05f};
+  material.params.surface.intensity = 1;
+  material.params.surface.f0 = {1, 1, 1, 0};
   if (mapped) {
     NormalMapRecipe recipe;
     recipe.kind = "bumps";
@@ -102,8 +102,8 @@ TEST(AreaLightFrame, SmoothFloorIsTheMonteCarloTruth) {
 
 TEST(AreaLightFrame, DiffuseIsTheMonteCarloTruthWithinItsStandardError) {
   Scene scene = bumpyScene(false);
-  scene.materials[0].glint.intensity = 0;
-  scene.materials[0].glint.albedo = {0.5f, 0.25f, 0.125f, 0};
+  scene.materials[0].params.surface.intensity = 0;
+  scene.materials[0].params.surface.albedo = {0.5f, 0.25f, 0.125f, 0};
   scene.area_lights[0].vertices = rectangleVertices({0, 2, -2}, {0, -1, 1}, {0, 1, 0}, {2, 1});
   const View view = lookingDown(60);
   const TruthImages truth =
@@ -136,7 +136,7 @@ TEST(AreaLightFrame, ScenesDecideTheSwitches) {
 TEST(AreaLightFrame, LanesAgreeBitForBitWithMapsAndPictures) {
   Scene scene = bumpyScene(true);
   scene.area_lights[0].texture = paintLightTexture("panes", 64);
-  scene.materials[0].glint.albedo = {0.2f, 0.2f, 0.2f, 0};
+  scene.materials[0].params.surface.albedo = {0.2f, 0.2f, 0.2f, 0};
   const View view = lookingDown(30);
   ShadingOptions options = smallFrame();
   const Image wide = shaded(scene, view, options);

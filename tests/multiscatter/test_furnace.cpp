@@ -19,9 +19,9 @@ Material clay(DiffuseModel model, double alpha, double masking = 0) {
   Material material;
   material.name = "clay";
   material.has_glints = false;
-  material.glint.alpha_g = material.glint.alpha_l = {0.5f, 0.5f};
-  material.glint.albedo = {1, 1, 1, 0};
-  material.glint.intensity = 0;
+  material.params.surface.alpha_g = material.params.glints.alpha_l = {0.5f, 0.5f};
+  material.params.surface.albedo = {1, 1, 1, 0};
+  material.params.surface.intensity = 0;
   material.diffuse_model = model;
   material.diffuse_roughness = alpha;
   material.diffuse_masking = masking;
@@ -33,9 +33,9 @@ Material mirror(double alpha, Compensation compensation, float f0 = 1) {
   material.name = "mirror";
   material.has_glints = false;
   const auto a = static_cast<float>(alpha);
-  material.glint.alpha_g = material.glint.alpha_l = {a, a};
-  material.glint.f0 = {f0, f0, f0, 0};
-  material.glint.intensity = 1;
+  material.params.surface.alpha_g = material.params.glints.alpha_l = {a, a};
+  material.params.surface.f0 = {f0, f0, f0, 0};
+  material.params.surface.intensity = 1;
   material.compensation = compensation;
   return material;
 }

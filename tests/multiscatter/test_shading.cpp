@@ -51,8 +51,9 @@ TEST(MultiscatterShading, KernelsAgreeWithDoublePrecision) {
       const double irradiance = scene.lights.front().irradiance.x;
       for (const auto& [x, y] : {std::pair(3, 2), std::pair(16, 9), std::pair(30, 16)}) {
         const glm::dvec3 view = local(-glm::normalize(renderer.camera().ray(x, y)));
-        const double expected = irradiance * reference(material.diffuse_model, alpha,
-                                                       material.glint.albedo.x, light, view);
+        const double expected =
+            irradiance *
+            reference(material.diffuse_model, alpha, material.params.surface.albedo.x, light, view);
         EXPECT_NEAR(image.at(x, y)[0], expected, kTolerance * expected)
             << name << " " << alpha << " " << x << "," << y;
       }

@@ -9,8 +9,8 @@ TEST(Overrides, SetValuesByNameAndPosition) {
       load("sand", {"material.sand.size_variation=7", "material.0.intensity=0.5",
                     "light.sun.half_angle_deg=30", "light.1.irradiance=[1, 2, 3]",
                     "post.exposure=2", "mesh.columns=4", "view.front.orbit.angle_deg=45"});
-  EXPECT_EQ(scene.materials[0].glint.size_variation, 7);
-  EXPECT_EQ(scene.materials[0].glint.intensity, 0.5f);
+  EXPECT_EQ(scene.materials[0].params.glints.size_variation, 7);
+  EXPECT_EQ(scene.materials[0].params.surface.intensity, 0.5f);
   EXPECT_NEAR(scene.lights[0].direction.w, glm::radians(30.0), 1e-6);
   EXPECT_EQ(scene.lights[1].irradiance.z, 3);
   EXPECT_EQ(scene.post.exposure, 2);
@@ -30,8 +30,8 @@ TEST(Overrides, CreateMissingTablesAndElements) {
                         sceneText("generator = \"plane\"", "palette = [[1, 0, 0], [0, 1, 0]]")),
            {"post.star=true", "material.paint.palette.1=[0, 0, 1]"});
   EXPECT_TRUE(scene.post.star);
-  EXPECT_EQ(scene.materials[0].glint.palette[1].z, 1);
-  EXPECT_EQ(scene.materials[0].glint.palette[0].x, 1);
+  EXPECT_EQ(scene.materials[0].params.glints.palette[1].z, 1);
+  EXPECT_EQ(scene.materials[0].params.glints.palette[0].x, 1);
 }
 
 TEST(Overrides, BareWordsAreStrings) {

@@ -42,20 +42,20 @@ TEST(SceneFiles, MaterialParameters) {
                               "global_roughness = [0.2, 0.4]\nmicro_roughness = [0.5, 0.25]\n"
                               "log_density = 3\ntype = 'grooves'\npalette = 'wheel'\nf0 = 0.5")));
   const Material& material = scene.materials[0];
-  EXPECT_FLOAT_EQ(material.glint.alpha_g.x, 0.2f);
-  EXPECT_FLOAT_EQ(material.glint.alpha_l.x, 0.1f);
-  EXPECT_FLOAT_EQ(material.glint.alpha_l.y, 0.1f);
-  EXPECT_FLOAT_EQ(material.glint.density, 1000);
-  EXPECT_FLOAT_EQ(material.glint.f0.y, 0.5f);
+  EXPECT_FLOAT_EQ(material.params.surface.alpha_g.x, 0.2f);
+  EXPECT_FLOAT_EQ(material.params.glints.alpha_l.x, 0.1f);
+  EXPECT_FLOAT_EQ(material.params.glints.alpha_l.y, 0.1f);
+  EXPECT_FLOAT_EQ(material.params.glints.density, 1000);
+  EXPECT_FLOAT_EQ(material.params.surface.f0.y, 0.5f);
   EXPECT_TRUE(material.has_glints && material.has_grooves && material.has_colour);
-  EXPECT_EQ(material.glint.palette_count, 0u);
+  EXPECT_EQ(material.params.glints.palette_count, 0u);
 }
 
 TEST(SceneFiles, PlaneHasThePaperlikeMaterial) {
   const Scene scene = load("screen_plane");
-  EXPECT_FLOAT_EQ(scene.materials[0].glint.alpha_g.x, 0.3f);
-  EXPECT_FLOAT_EQ(scene.materials[0].glint.alpha_l.x, 0.03f);
-  EXPECT_FLOAT_EQ(scene.materials[0].glint.density, 1e6f);
+  EXPECT_FLOAT_EQ(scene.materials[0].params.surface.alpha_g.x, 0.3f);
+  EXPECT_FLOAT_EQ(scene.materials[0].params.glints.alpha_l.x, 0.03f);
+  EXPECT_FLOAT_EQ(scene.materials[0].params.glints.density, 1e6f);
 }
 
 TEST(SceneFiles, LightsFromAngles) {

@@ -148,10 +148,10 @@ std::vector<Record> measureMetal(BenchRun& run, const std::string& name) {
   Material mirror;
   mirror.name = "mirror";
   mirror.has_glints = false;
-  mirror.glint.alpha_g =
-      mirror.glint.alpha_l = {static_cast<float>(alpha), static_cast<float>(alpha)};
-  mirror.glint.f0 = {1, 1, 1, 0};
-  mirror.glint.intensity = 1;
+  mirror.params.surface.alpha_g =
+      mirror.params.glints.alpha_l = {static_cast<float>(alpha), static_cast<float>(alpha)};
+  mirror.params.surface.f0 = {1, 1, 1, 0};
+  mirror.params.surface.intensity = 1;
   constexpr std::pair<Compensation, const char*> kWays[] = {
       {Compensation::kOff, "furnace_before"},
       {Compensation::kLobe, "furnace_after"},

@@ -72,7 +72,8 @@ class ViewMeasurer {
     Scene scene = openScene(run_.session().common, wanted.word(0));
     if (!wanted.knobs.empty()) {
       const auto roughness = static_cast<float>(wanted.number(kRoughnessKnob));
-      for (Material& material : scene.materials) material.glint.alpha_g = {roughness, roughness};
+      for (Material& material : scene.materials)
+        material.params.surface.alpha_g = {roughness, roughness};
     }
     Tao21View view = measureTao21View(run_, scene, scene.view(wanted.word(1)), wanted);
     writePng(view.picture,

@@ -53,8 +53,8 @@ void prepareLobes(const Material& material, LobePolynomials p, MultiscatterMater
   out.scale = atRoughness(p.scale, alpha);
   out.flattening = atRoughness(p.flattening, alpha);
   out.exponent = static_cast<float>(eta - 1);
-  out.single = mapColour(material.glint.albedo, [](double rho) { return rho / kPi; });
-  out.multiple = mapColour(material.glint.albedo, [&](double rho) {
+  out.single = mapColour(material.params.surface.albedo, [](double rho) { return rho / kPi; });
+  out.multiple = mapColour(material.params.surface.albedo, [&](double rho) {
     return rho * rho * (1 + third * rho) * (2 + eta) / (2 * kPi * kPi);
   });
   interpolate([&](double mu) { return lobeModelShare(p, alpha, 1, mu, 1); }, out.share);
@@ -64,12 +64,12 @@ void prepareLobes(const Material& material, LobePolynomials p, MultiscatterMater
   interpolate([&](double mu) { return model.means(mu).masked / room; }, out.masked_crowd);
 }
 
-void prepareEon(const GlintMaterial& material, double r, MultiscatterMaterial& out) {
+void prepareEon(const MaterialParams& material, double r, MultiscatterMaterial& out) {
   const double a_f = 1 / (1 + (0.5 - 2 / (3 * kPi)) * r);
   const double mean = a_f * (1 + (2.0 / 3.0 - 28 / (15 * kPi)) * r);
   out.exponent = static_cast<float>(r);
-  out.single = mapColour(material.albedo, [&](double rho) { return rho * a_f / kPi; });
-  out.multiple = mapColour(material.albedo, [&](double rho) {
+  out.single = mapColour(material.surface.albedo, [&](double rho) { return rho * a_f / kPi; });
+  out.multiple = mapColour(material.surface.albedo, [&](double rho) {
     return rho * rho * mean / (1 - rho * (1 - mean)) / kPi / std::max(1 - mean, 1e-7);
   });
   interpolate([&](double mu) { return 1 - eonAlbedo(mu, r); }, out.share);
@@ -78,8 +78,8 @@ void prepareEon(const GlintMaterial& material, double r, MultiscatterMaterial& o
 // Metals: what one bounce leaves out, over what it reflects. [Turquin19] Eq. 16
 void prepareCompensation(const Material& material, const MirrorAlbedo& mirror,
                          MultiscatterMaterial& out) {
-  const double alpha =
-      std::sqrt(static_cast<double>(material.glint.alpha_g.x) * material.glint.alpha_g.y);
+  const double alpha = std::sqrt(static_cast<double>(material.params.surface.alpha_g.x) *
+                                 material.params.surface.alpha_g.y);
   out.warp = static_cast<float>(MS_WARP * alpha);
   interpolate(
       [&](double t) {
@@ -105,7 +105,7 @@ MultiscatterMaterial prepareMultiscatter(const Material& material, const KernelC
   if (config.multiscatter == Multiscatter::kPublished) prepareLobes(material, kPublishedCode, out);
   if (config.multiscatter == Multiscatter::kRefit) prepareLobes(material, fits().refit, out);
   if (config.multiscatter == Multiscatter::kEon)
-    prepareEon(material.glint, fits().eon.at(alpha), out);
+    prepareEon(material.params, fits().eon.at(alpha), out);
   if (config.metal_compensation) prepareCompensation(material, fits().mirror, out);
   return out;
 }
