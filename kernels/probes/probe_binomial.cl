@@ -1,5 +1,5 @@
 // Runs the kernels' binomial draw over arrays of (u, n, p).
-#include "glint/binomial.clh"
+#include "glint/glint.clh"
 
 #define FIRST (get_global_id(0) * WIDTH)
 

@@ -1,5 +1,5 @@
 // Runs single functions of the kernels over arrays, so that each can be compared with its definition.
-#include "glint/footprint.clh"
+#include "glint/glint.clh"
 #include "glint/hash.clh"
 
 #define FIRST (get_global_id(0) * WIDTH)
@@ -48,10 +48,9 @@ kernel void probeFootprint(global const uint* in, global float* out, uint count,
   if (FIRST >= count) return;
 #define WORD(plane) loadUint(in, (plane) * (size_t)count + FIRST)
   const FixedUv u = {bitsToInt(WORD(0)), WORD(1)}, v = {bitsToInt(WORD(2)), WORD(3)};
-  const Footprint f =
-      makeFootprint(u, v, bitsToFloat(WORD(4)), bitsToFloat(WORD(5)), bitsToFloat(WORD(6)),
-                    bitsToFloat(WORD(7)), (float2)(gamma_u, gamma_v));
+  const GlintUv uv = {u, v, bitsToFloat(WORD(4)), bitsToFloat(WORD(5)), bitsToFloat(WORD(6)), bitsToFloat(WORD(7))};
 #undef WORD
+  const Footprint f = makeFootprint(uv, (float2)(gamma_u, gamma_v));
   storeFloat(toFloat(f.fine_level), out, FIRST);
   storeFloat(f.coarse_weight, out, count + FIRST);
   storeFloat(f.extent_u, out, 2 * (size_t)count + FIRST);

@@ -1,5 +1,5 @@
 // Runs the shading of lobes over arrays. Compiled with -D DIFFUSE=1.
-#include "normals/normal_filter.clh"
+#include "normals/method_gmm.clh"
 
 WIDE vfloat loadFloat(global const float* p, size_t i) {
   return bitsToFloat(loadUint((global const uint*)p, i));

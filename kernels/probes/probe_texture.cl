@@ -1,6 +1,6 @@
 // Runs the texture fetch over arrays of footprints, PROBE_TEXEL_SIZE float4 per texel.
 #define TEXEL_SIZE PROBE_TEXEL_SIZE
-#include "normals/texture_sum.clh"
+#include "normals/texture_sum_template.clh"
 
 #define NAME2(a, b) a##b
 #define NAME1(a, b) NAME2(a, b)
