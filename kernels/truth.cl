@@ -97,8 +97,8 @@ WIDE SurfaceSample sampleSurface(const PixelSurface* surface, uint index,
 
 #if CONE_LIGHTS
 WIDE vfloat3 shadeSample(const SurfaceSample* sample, constant const FrameParams* frame,
-                         constant const MaterialParams* material, constant const LightParams* lights,
-                         constant const float4* taps) {
+                         constant const MaterialParams* material,
+                         constant const LightParams* lights, constant const float4* taps) {
   const vfloat3 ratio = {(vfloat)(1.0f), (vfloat)(1.0f), (vfloat)(1.0f)};
   const SmithLambda lambda_view = smithLambda(sample->view, material->surface.alpha_g);
   vfloat3 sum = {(vfloat)(0.0f), (vfloat)(0.0f), (vfloat)(0.0f)};
@@ -168,8 +168,8 @@ kernel void truth(global const uint* planes, constant const FrameParams* frame,
 #endif
 #if LTC
     const vfloat3 place = samplePlace(&surface, &sample, depth, frame);
-    value = add3(value, sampleAreaLights(sample.frame, place, sample.view, sample.visible, &material->surface,
-                                         sample.seed, area_lights,
+    value = add3(value, sampleAreaLights(sample.frame, place, sample.view, sample.visible,
+                                         &material->surface, sample.seed, area_lights,
                                          frame->area_light_count PICTURE_ARGUMENTS));
 #endif
     sum.x += value.x;

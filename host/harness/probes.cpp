@@ -6,6 +6,7 @@
 #include <bit>
 
 #include "host/harness/pixel_harness.h"
+#include "host/ocl/switches.h"
 
 namespace glintmark {
 namespace {
@@ -93,7 +94,7 @@ FootprintProbe probeFootprints(const std::vector<reference::PixelFootprint>& foo
   }
   Buffer out = makeOutput(4 * padded);
   launch("probes/probe_glint.cl", "probeFootprint",
-         fmt::format("-D GLINT_METHOD={} -D KA={}", static_cast<int>(method), ka), width,
+         fmt::format("-D GLINT_METHOD={} -D KA={}", choiceName(method), ka), width,
          {upload(planes), out, static_cast<std::uint32_t>(padded), static_cast<float>(stretch.x),
           static_cast<float>(stretch.y)},
          padded);
@@ -106,7 +107,7 @@ std::vector<float> probeBinomial(const std::vector<float>& u, const std::vector<
   const std::size_t padded = paddedCount(u.size());
   Buffer out = makeOutput(padded);
   launch("probes/probe_binomial.cl", "probeBinomial",
-         fmt::format("-D GLINT_METHOD={}", static_cast<int>(method)), width,
+         fmt::format("-D GLINT_METHOD={}", choiceName(method)), width,
          {upload(u), upload(n), upload(p), out, static_cast<std::uint32_t>(padded)}, padded);
   return download<float>(out, 0, u.size());
 }

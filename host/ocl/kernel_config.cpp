@@ -20,7 +20,8 @@ std::string buildOptions(const KernelConfig& config) {
   requireAllowed(config);
   std::string options;
   for (const Switch& row : allSwitches())
-    options += fmt::format("{}-D {}={}", options.empty() ? "" : " ", row.macro, row.of(config));
+    options += fmt::format("{}-D {}={}", options.empty() ? "" : " ", row.macro,
+                           row.textOf(row.of(config)));
   for (std::size_t i = 0; i < kPlaneCount; ++i) {
     const Plane plane = static_cast<Plane>(i);
     if (config.planes.has(plane))

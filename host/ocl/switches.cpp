@@ -52,6 +52,13 @@ SwitchValues choices(std::string_view noun) {
 }
 
 template <typename T>
+SwitchValues methods(std::string_view noun, std::string_view folder) {
+  SwitchValues values = choices<T>(noun);
+  values.folder = folder;
+  return values;
+}
+
+template <typename T>
 Sweep sweepOf(Sweep::Kind kind, std::string_view effect, std::string_view name,
               std::initializer_list<T> values) {
   Sweep sweep{kind, effect, name, {}};
@@ -100,6 +107,10 @@ bool SwitchValues::allow(int value) const {
 std::string Switch::nameOf(int value) const {
   return values.names.empty() ? std::to_string(value)
                               : std::string(values.names.at(static_cast<std::size_t>(value)));
+}
+
+std::string Switch::textOf(int value) const {
+  return values.folder.empty() ? std::to_string(value) : nameOf(value);
 }
 
 const std::vector<Switch>& allSwitches() {

@@ -13,7 +13,7 @@ namespace glintmark {
 /// A named value of a switch.
 struct Choice {
   std::string_view name;      // "toksvig"
-  std::string_view constant;  // the kernels' macro of it, "NORMALS_TOKSVIG"
+  std::string_view constant;  // the kernels' macro of it, "LTC_TAO21"; of a method, its name
 };
 
 /// The values of an enumeration of kernel_config.h, that of 0 first.
@@ -31,6 +31,7 @@ struct SwitchValues {
   std::vector<int> listed = {};              // ascending; empty: all of the range
   std::vector<std::string_view> names = {};  // by value; empty: numbers
   std::span<const Choice> choices = {};      // of enumerations
+  std::string_view folder = {};  // of methods: that of kernels/ with method_<name>.clh
 
   bool allow(int value) const;
 };
@@ -54,6 +55,8 @@ struct Switch {
 
   /// "16", "exact", "half".
   std::string nameOf(int value) const;
+  /// What -D writes: the number, or the name of a method.
+  std::string textOf(int value) const;
 };
 
 /// In the order in which buildOptions names them.

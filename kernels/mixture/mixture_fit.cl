@@ -1,9 +1,9 @@
 // Fits Gaussian mixtures to the normals under every texel of a mip chain. [TAN05] Sect. 4.1
 //
-// The host (host/mixture/device_mixture_fit.cpp) launches one colour batch of a level after the other.
-// Two ways to fill lanes. Where texels have few normals, a lane is a texel and fitTexels takes all
-// its EM steps. Where rows of normals are long, a lane is a normal: a step is expectRows (partial
-// sums over chunks of rows), addPartials, maximizeTexels.
+// The host (host/mixture/device_mixture_fit.cpp) launches one colour batch of a level after the
+// other. Two ways to fill lanes. Where texels have few normals, a lane is a texel and fitTexels
+// takes all its EM steps. Where rows of normals are long, a lane is a normal: a step is expectRows
+// (partial sums over chunks of rows), addPartials, maximizeTexels.
 #include "mixture/mixture_cover.clh"
 #include "mixture/mixture_texels.clh"
 

@@ -27,8 +27,8 @@ kernel void probeAreaLights(global const float* points, constant const MaterialP
   point.normal = loadVector(points, 3 * count + FIRST, count);
   point.view = loadVector(points, 6 * count + FIRST, count);
   point.alpha = loadFloat(points, 9 * count + FIRST);
-  const vfloat3 sum =
-      shadeAreaLights(point, &material->surface, lights, light_count, table, table_size PICTURE_ARGUMENTS);
+  const vfloat3 sum = shadeAreaLights(point, &material->surface, lights, light_count, table,
+                                      table_size PICTURE_ARGUMENTS);
   storeFloat(sum.x, out, FIRST);
   storeFloat(sum.y, out, count + FIRST);
   storeFloat(sum.z, out, 2 * count + FIRST);

@@ -10,7 +10,7 @@ WIDE vfloat loadFloat(global const float* p, size_t i) {
 kernel void probeBinomial(global const float* u, global const float* n, global const float* p,
                           global float* out, uint count) {
   if (FIRST >= count) return;
-  const vfloat k = drawBinomial(loadFloat(u, FIRST), loadFloat(n, FIRST),
-                                makeBinomialOdds(loadFloat(p, FIRST)));
+  const vfloat k =
+      drawBinomial(loadFloat(u, FIRST), loadFloat(n, FIRST), makeBinomialOdds(loadFloat(p, FIRST)));
   storeFloat(k, out, FIRST);
 }

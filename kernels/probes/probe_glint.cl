@@ -1,4 +1,5 @@
-// Runs single functions of the kernels over arrays, so that each can be compared with its definition.
+// Runs single functions of the kernels over arrays, so that each can be compared with its
+// definition.
 #include "glint/glint.clh"
 #include "glint/hash.clh"
 
@@ -41,14 +42,15 @@ kernel void probeRandom(global const uint* bits, global float* out, uint count) 
   storeFloat((byteSum(h) - BYTE_SUM_MEAN) / BYTE_SUM_SIGMA, out, count + FIRST);
 }
 
-// in: planes of `count` words: u whole, u fraction, v whole, v fraction, du/dx, dv/dx, du/dy, dv/dy.
-// out: finer level, weight of the coarser grid, extents of the stretched box.
+// in: planes of `count` words: u whole, u fraction, v whole, v fraction, du/dx, dv/dx, du/dy,
+// dv/dy. out: finer level, weight of the coarser grid, extents of the stretched box.
 kernel void probeFootprint(global const uint* in, global float* out, uint count, float gamma_u,
                            float gamma_v) {
   if (FIRST >= count) return;
 #define WORD(plane) loadUint(in, (plane) * (size_t)count + FIRST)
   const FixedUv u = {bitsToInt(WORD(0)), WORD(1)}, v = {bitsToInt(WORD(2)), WORD(3)};
-  const GlintUv uv = {u, v, bitsToFloat(WORD(4)), bitsToFloat(WORD(5)), bitsToFloat(WORD(6)), bitsToFloat(WORD(7))};
+  const GlintUv uv = {
+      u, v, bitsToFloat(WORD(4)), bitsToFloat(WORD(5)), bitsToFloat(WORD(6)), bitsToFloat(WORD(7))};
 #undef WORD
   const Footprint f = makeFootprint(uv, (float2)(gamma_u, gamma_v));
   storeFloat(toFloat(f.fine_level), out, FIRST);

@@ -5,9 +5,7 @@
 #define NAME2(a, b) a##b
 #define NAME1(a, b) NAME2(a, b)
 
-WIDE vfloat loadFloat(global const uint* p, size_t i) {
-  return bitsToFloat(loadUint(p, i));
-}
+WIDE vfloat loadFloat(global const uint* p, size_t i) { return bitsToFloat(loadUint(p, i)); }
 
 // footprints: planes u, v [2^-32], dudx, dvdx, dudy, dvdy [float bits] of `count` entries each.
 // out: per component of the texel a plane; then count and level of the probes.

@@ -25,7 +25,7 @@ int main(int argc, char** argv) {
     options.width_px = 21;  // no multiple of any lane count
     options.height_px = 5;
     options.lanes = std::atoi(argv[1]);
-    options.method = std::atoi(argv[2]) == 0 ? GlintMethod::kZk16 : GlintMethod::kExact;
+    options.method = parseMethod(argv[2]);
     options.count_cells = true;
     Device device;
     FrameRenderer renderer(device, scene, lookingDown(20), options, 1);

@@ -90,6 +90,25 @@ TEST_F(ProgramCacheTest, ChangedIncludeIsCompiledAndReplacesTheEntry) {
   EXPECT_EQ(entries().size(), 1u) << "stale entries do not pile up";
 }
 
+// A header in a folder within a folder; its name counts as well as its text.
+TEST_F(ProgramCacheTest, ChangesInSubfoldersChangeTheKey) {
+  fs::create_directories(kernels_ / "part" / "inner");
+  writeFile(kernels_ / "part" / "inner" / "step.clh", "#define STEP 3u\n");
+  writeFile(kernels_ / "tiny.clh", "#include \"part/inner/step.clh\"\n");
+  const std::uint64_t before = hashKernels(kernels_);
+  EXPECT_EQ(runCount(device_, build()), 3u);
+  EXPECT_TRUE(build().fromDiskCache());
+  writeFile(kernels_ / "part" / "inner" / "step.clh", "#define STEP 7u\n");
+  const Program changed = build();
+  EXPECT_FALSE(changed.fromDiskCache());
+  EXPECT_EQ(runCount(device_, changed), 7u);
+  EXPECT_NE(hashKernels(kernels_), before);
+
+  const std::uint64_t changed_text = hashKernels(kernels_);
+  fs::rename(kernels_ / "part" / "inner" / "step.clh", kernels_ / "part" / "step.clh");
+  EXPECT_NE(hashKernels(kernels_), changed_text);
+}
+
 TEST_F(ProgramCacheTest, EmptyAndTruncatedEntriesAreRebuilt) {
   const std::string good = goodEntry();
   expectRebuiltAfter("empty", "");

@@ -43,7 +43,8 @@ std::vector<std::string> paragraph(const std::string& text, const std::string& f
 std::string valuesText(const SwitchValues& values) {
   std::vector<std::string> texts;
   for (std::size_t i = 0; i < values.names.size(); ++i)
-    texts.push_back(fmt::format("{} `{}`", i, values.names[i]));
+    texts.push_back(values.folder.empty() ? fmt::format("{} `{}`", i, values.names[i])
+                                          : fmt::format("`{}`", values.names[i]));
   for (const int value : values.listed) texts.push_back(std::to_string(value));
   if (texts.empty() && values.most > 1) return fmt::format("{} to {}", values.least, values.most);
   if (texts.empty()) texts = {"0", "1"};
@@ -60,7 +61,7 @@ std::vector<std::string> renderedTable() {
       set_by += fmt::format("{}`accuracy {}`: `{}`", set_by.empty() ? "" : ", ", row.sweep.effect,
                             row.sweep.knob);
     lines.push_back(fmt::format("| `{}` | {} | {} | {} | {} |", row.macro, valuesText(row.values),
-                                row.standard, row.meaning, set_by));
+                                row.textOf(row.standard), row.meaning, set_by));
   }
   return lines;
 }
@@ -142,22 +143,47 @@ TEST(SwitchTable, ConfigHoldsNothingElse) {
 TEST(SwitchTable, KernelsHaveTheSameDefaults) {
   for (const auto& [file, rows] : declaredSwitches()) {
     const auto macros = macrosOf(preprocessed(file, ""));
-    for (const Switch* row : rows)
-      EXPECT_EQ(numberOf(macros, std::string(row->macro)), row->standard)
-          << row->macro << " in " << file;
+    for (const Switch* row : rows) {
+      if (row->values.folder.empty())
+        EXPECT_EQ(numberOf(macros, std::string(row->macro)), row->standard)
+            << row->macro << " in " << file;
+      else
+        EXPECT_EQ(macros.at(std::string(row->macro)), row->textOf(row->standard)) << row->macro;
+    }
   }
 }
 
 TEST(SwitchTable, KernelsHaveTheSameNamedValues) {
   const auto macros = macrosOf(preprocessed(kKernels / "config.clh", ""));
   for (const Switch& row : allSwitches())
-    for (std::size_t i = 0; i < row.values.choices.size(); ++i)
+    for (std::size_t i = 0; row.values.folder.empty() && i < row.values.choices.size(); ++i)
       EXPECT_EQ(numberOf(macros, std::string(row.values.choices[i].constant)), static_cast<int>(i))
           << row.values.choices[i].constant;
 }
 
+// A method of the table for each file, and a file for each method.
+TEST(SwitchTable, MethodsAreTheFilesOfTheirFolder) {
+  int switches_of_methods = 0;
+  for (const Switch& row : allSwitches()) {
+    if (row.values.folder.empty()) continue;
+    ++switches_of_methods;
+    std::set<std::string> files, wanted;
+    for (const fs::directory_entry& entry : fs::directory_iterator(kKernels / row.values.folder))
+      if (const std::string name = entry.path().filename(); name.starts_with("method_"))
+        files.insert(name);
+    for (const Choice& choice : row.values.choices) {
+      wanted.insert(fmt::format("method_{}.clh", choice.name));
+      EXPECT_EQ(choice.constant, choice.name);
+    }
+    EXPECT_EQ(files, wanted) << row.macro;
+  }
+  EXPECT_EQ(switches_of_methods, 2);
+}
+
 TEST(SwitchTable, KernelsHaveTheSameRanges) {
-  for (const auto& [file, rows] : declaredSwitches()) {
+  for (auto [file, rows] : declaredSwitches()) {
+    // An unknown method is a file that is not there.
+    std::erase_if(rows, [](const Switch* row) { return !row->values.folder.empty(); });
     // Values just within and just outside; each round sets all switches of the file.
     for (const int beyond : {0, 1})
       for (const bool upper : {false, true}) {

@@ -1,0 +1,14 @@
+// The file between write_hits and shade_hits: this header, then kHitArrays arrays of `count` words
+// (kernels/sample/glints.cl) and three arrays of the radiance that our frame has, r, g and b.
+#pragma once
+#include <cstdint>
+
+inline constexpr std::uint32_t kHitArrays = 14;
+
+struct HitsHeader {
+  char device[256];              // name of the device that shaded the frame
+  std::uint32_t count;           // hits, a multiple of 64
+  std::uint32_t material_bytes;  // of MaterialParams
+  float irradiance[4];
+  unsigned char material[208];
+};
