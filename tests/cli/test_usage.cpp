@@ -52,7 +52,7 @@ TEST(Usage, UnknownNamesListTheKnownOnes) {
   expectError({"render", "screen_plane", "-o", "a.png", "--view", "up"}, 2,
               {"'up'", "steep", "grazing"});
   expectError({"render", "screen_plane", "-o", "a.png", "--method", "best"}, 2,
-              {"'best'", "zk16 and exact"});
+              {"'best'", "zk16", "exact"});
   expectError({"heatmap", "--scale", "log"}, 2, {"'log'", "fixed", "auto"});
   expectError({"bench", "zk17"}, 2, {"'zk17'", "zk16"});
   expectError({"bench", "--scene", "moon"}, 2, {"'moon'", "screen_plane, snow, dress, car"});

@@ -146,9 +146,9 @@ TEST(KernelConfig, RangesAreChecked) {
               "ka " + std::to_string(ka) + " is out of range; it must be 1 to 64");
   }
   KernelConfig config;
-  config.method = static_cast<GlintMethod>(2);
+  config.ltc_method = static_cast<LtcMethod>(3);
   EXPECT_EQ(errorOf([&] { buildOptions(config); }),
-            "glint method 2 is unknown; it must be 0 (zk16) or 1 (exact)");
+            "area light method 3 is unknown; it must be 0 (original), 1 (tao21) or 2 (exact)");
 }
 
 }  // namespace
