@@ -129,8 +129,8 @@ TEST(KernelFolder, HeadersAreGuardedByTheirName) {
     std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::toupper(c); });
     const std::string text = readFile(kKernels / header);
     const std::string suffix = header.extension() == ".h" ? "_H" : "_CLH";
-    const bool guarded = text.find(fmt::format("#ifndef GLINTMARK_{}{}\n", name, suffix)) !=
-                         std::string::npos;
+    const bool guarded =
+        text.find(fmt::format("#ifndef GLINTMARK_{}{}\n", name, suffix)) != std::string::npos;
     const bool many_times = text.find("may be included again") != std::string::npos ||
                             text.find("may be\n// included again") != std::string::npos;
     EXPECT_TRUE(guarded || many_times) << header;
