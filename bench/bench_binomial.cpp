@@ -1,5 +1,5 @@
-// The binomial draw of both methods (kernels/glint/binomial.clh): few and many trials, and all
-// branches mixed in every vector.
+// The binomial draw of both methods (kernels/glint/binomial_template.clh): few and many trials, and
+// all branches mixed in every vector.
 #include <fmt/format.h>
 
 #include <random>

@@ -1,5 +1,5 @@
-// Filtering mixtures of normals along footprints (kernels/normals/texture_sum.clh): lobes of a
-// texel, and most probes along the footprint.
+// Filtering mixtures of normals along footprints (kernels/normals/texture_sum_template.clh): lobes
+// of a texel, and most probes along the footprint.
 #include <fmt/format.h>
 
 #include "bench/device_bench.h"

@@ -31,7 +31,7 @@ struct SwitchValues {
   std::vector<int> listed = {};              // ascending; empty: all of the range
   std::vector<std::string_view> names = {};  // by value; empty: numbers
   std::span<const Choice> choices = {};      // of enumerations
-  std::string_view folder = {};  // of methods: that of kernels/ with method_<name>.clh
+  std::string_view folder = {};              // of methods: that of kernels/ with method_<name>.clh
 
   bool allow(int value) const;
 };

@@ -37,9 +37,8 @@ std::vector<ProbedLobe> probe(const std::vector<LobeCase>& cases, float alpha, i
       output(device, out.size() * 4, BufferPurpose::kProbe, "shaded lobes");
   input.write(in.data(), in.size() * 4);
   const std::vector<KernelArg> args = {input, output, static_cast<std::uint32_t>(n), alpha};
-  probeKernel(
-      "probes/probe_lobe.cl", "probeLobe",
-      fmt::format("-D WIDTH={} -D DIFFUSE=1 -D NORMAL_MAP=1 -D LOBES=1", lanes))
+  probeKernel("probes/probe_lobe.cl", "probeLobe",
+              fmt::format("-D WIDTH={} -D DIFFUSE=1 -D NORMAL_MAP=1 -D LOBES=1", lanes))
       .launch(args, n / static_cast<std::size_t>(lanes), 16);
   output.read(out.data(), out.size() * 4);
   std::vector<ProbedLobe> result;
@@ -153,9 +152,8 @@ Mixture probeMixture(const std::vector<glm::vec4>& moments, float alpha, int wid
       output(device, out.size() * 4, BufferPurpose::kProbe, "a mixture");
   input.write(in.data(), in.size() * 4);
   const std::vector<KernelArg> args = {input, output, static_cast<std::uint32_t>(lanes), alpha};
-  probeKernel(
-      "probes/probe_lobe.cl", "probeMixture",
-      fmt::format("-D WIDTH={} -D DIFFUSE=1 -D NORMAL_MAP=1 -D LOBES=4", width))
+  probeKernel("probes/probe_lobe.cl", "probeMixture",
+              fmt::format("-D WIDTH={} -D DIFFUSE=1 -D NORMAL_MAP=1 -D LOBES=4", width))
       .launch(args, 1, 1);
   output.read(out.data(), out.size() * 4);
   Mixture mixture;

@@ -68,7 +68,7 @@ TEST(KernelConfig, OtherValuesAreWrittenAsEver) {
 TEST(KernelConfig, EverySwitchShows) {
   std::string expected;
   for (const Switch& row : allSwitches())
-    expected += "-D " + std::string(row.macro) + "=" + std::to_string(row.of({})) + " ";
+    expected += "-D " + std::string(row.macro) + "=" + row.textOf(row.of({})) + " ";
   expected.pop_back();
   EXPECT_EQ(buildOptions({}), expected);
 }

@@ -45,7 +45,7 @@ std::vector<float> directions(Device& device, const FrameRenderer& renderer, con
   words.write(planes.storage.data(), plane_bytes);
   frame.write(&params, sizeof params);
   ProgramCache cache(device);
-  const KernelArg args[] = {words, frame, light, out};
+  const KernelArg args[] = {words, frame, light.x, light.y, light.z, out};
   cache.get("probes/probe_pixel.cl", config).kernel("probePixels").launch(args, planes.stride, 16);
   std::vector<float> result(planes.stride * 6);
   out.read(result.data(), result.size() * 4);
