@@ -7,12 +7,9 @@
 #include <cmath>
 #include <random>
 
-#include "host/harness/pixel_harness.h"
-
 namespace glintmark {
 namespace {
 
-constexpr std::size_t kLocalSize = 16;
 constexpr int kTextureRepeat = 0, kTextureClamp = 1;  // as in kernels/normals/texture.clh
 
 }  // namespace
@@ -62,11 +59,10 @@ std::vector<TexturePixel> randomFootprints(std::size_t n, std::uint32_t seed) {
   return pixels;
 }
 
-std::vector<FetchedTexel> fetchPixels(const TestTexture& texture, int texel_size,
-                                      const std::vector<TexturePixel>& pixels, int most_probes,
-                                      bool repeat, int width) {
-  Device& device = KernelBench::shared().device;
-  const std::size_t n = (pixels.size() + 15) / 16 * 16;
+std::vector<FetchedTexel> fetchPixels(KernelBench& bench, const TestTexture& texture,
+                                      int texel_size, const std::vector<TexturePixel>& pixels,
+                                      int most_probes, bool repeat, int width) {
+  const std::size_t n = paddedCount(pixels.size());
   std::vector<std::uint32_t> planes(6 * n);
   for (std::size_t i = 0; i < n; ++i) {
     const TexturePixel& p = pixels[std::min(i, pixels.size() - 1)];
@@ -77,13 +73,11 @@ std::vector<FetchedTexel> fetchPixels(const TestTexture& texture, int texel_size
       planes[(2 + d) * n + i] = std::bit_cast<std::uint32_t>(derivatives[d]);
   }
   const auto upload = [&](const auto& items) {
-    Buffer buffer(device, items.size() * sizeof(items[0]), "texture test");
-    buffer.write(items.data(), items.size() * sizeof(items[0]));
-    return buffer;
+    return uploadItems(bench.device, items, "texture test");
   };
   const std::size_t components = 4 * static_cast<std::size_t>(texel_size);
   std::vector<float> words((components + 2) * n);
-  Buffer out(device, words.size() * 4, "texture test");
+  Buffer out(bench.device, words.size() * 4, "texture test");
   const std::vector<KernelArg> args = {upload(std::vector{texture.header}),
                                        upload(texture.texels),
                                        upload(planes),
@@ -91,7 +85,7 @@ std::vector<FetchedTexel> fetchPixels(const TestTexture& texture, int texel_size
                                        static_cast<std::uint32_t>(n),
                                        most_probes,
                                        repeat ? kTextureRepeat : kTextureClamp};
-  probeKernel("probes/probe_texture.cl", "probeTexture",
+  probeKernel(bench, "probes/probe_texture.cl", "probeTexture",
               fmt::format("-D WIDTH={} -D PROBE_TEXEL_SIZE={}", width, texel_size))
       .launch(args, n / static_cast<std::size_t>(width), kLocalSize);
   out.read(words.data(), words.size() * 4);
