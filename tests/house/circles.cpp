@@ -1,6 +1,6 @@
 // Circles of includes.
+#include <algorithm>
 #include <filesystem>
-#include <iterator>
 #include <queue>
 
 #include "tests/house/house.h"
@@ -26,13 +26,25 @@ std::string way(const Graph& graph, const std::string& from, const std::string& 
   return text;
 }
 
-// A circle for each edge of `edges` that lies on one of `graph`.
+// The shortest circle with an edge of `edges` of all that hang together.
 void addCircles(std::vector<std::string>& found, const Graph& graph, const Graph& edges) {
+  std::vector<std::pair<std::string, std::string>> all;  // a node and a circle from it
   for (const auto& [from, targets] : edges)
     for (const std::string& to : targets) {
       const std::string back = way(graph, to, from);
-      if (!back.empty()) found.push_back(from + " -> " + back);
+      if (!back.empty()) all.emplace_back(from, from + " -> " + back);
     }
+  const auto arrows = [](const auto& circle) { return std::ranges::count(circle.second, '>'); };
+  std::ranges::stable_sort(all, {}, arrows);
+  std::vector<std::string> shown;
+  for (const auto& [node, circle] : all) {
+    const bool hangs_together = std::ranges::any_of(shown, [&](const std::string& other) {
+      return !way(graph, node, other).empty() && !way(graph, other, node).empty();
+    });
+    if (hangs_together) continue;
+    shown.push_back(node);
+    found.push_back(circle);
+  }
 }
 
 std::string moduleOf(const std::string& path) {

@@ -16,7 +16,7 @@ const Files& projectFiles() {
   static const Files files = [] {
     Files all;
     const fs::path root = GLINTMARK_SOURCE_DIR;
-    for (const char* area : {"host", "kernels", "bench", "tests", "fuzz", "docs", "data"})
+    for (const char* area : {"host", "kernels", "bench", "tests", "fuzz", "docs", "data", "scenes"})
       for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / area)) {
         if (!entry.is_regular_file()) continue;
         const std::string path = entry.path().lexically_relative(root).string();
