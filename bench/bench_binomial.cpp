@@ -23,7 +23,7 @@ void draw(benchmark::State& state, GlintMethod method, const std::vector<Binomia
     p[i] = static_cast<float>(c.p);
   }
   timeKernel(state, "probeBinomial", kBinomialDraws, "draw",
-             [&] { probeBinomial(u, n, p, method, lanes); });
+             [&] { probeBinomial(deviceBench(), u, n, p, method, lanes); });
 }
 
 void registerAll() {

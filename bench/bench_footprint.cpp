@@ -17,7 +17,7 @@ void make(benchmark::State& state, GlintMethod method, const glm::dvec2& stretch
   for (const HandMadePixel& pixel : randomPixels(kPixels, {1e-4, 1e-2, 20}))
     footprints.push_back(pixel.footprint);
   timeKernel(state, "probeFootprint", kPixels, "px",
-             [&] { probeFootprints(footprints, stretch, method, kKa, lanes); });
+             [&] { probeFootprints(deviceBench(), footprints, stretch, method, kKa, lanes); });
 }
 
 void registerAll() {

@@ -24,10 +24,10 @@ void shade(benchmark::State& state, GlintMethod method, double most_aspect, int 
   config.method = method;
   config.size_variation = false;
   config.count_cells = true;
-  const ShadedPixels counted = shadePixels(frame, config);
+  const ShadedPixels counted = shadePixels(deviceBench(), frame, config);
   const double cells = std::accumulate(counted.cells.begin(), counted.cells.end(), 0.0);
   config.count_cells = false;  // counting is off while the clock runs
-  timeKernel(state, "shade", cells, "cell", [&] { shadePixels(frame, config); });
+  timeKernel(state, "shade", cells, "cell", [&] { shadePixels(deviceBench(), frame, config); });
   state.counters["cells/px"] = cells / kPixels;
 }
 

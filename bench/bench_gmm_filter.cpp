@@ -15,10 +15,11 @@ void fetch(benchmark::State& state, int lobes, int most_probes, int lanes) {
   const TestTexture texture = randomTexture(kTexels, kTexels, lobes, 7);
   const std::vector<TexturePixel> pixels = randomFootprints(kPixels, 11);
   double probes = 0;
-  for (const FetchedTexel& fetched : fetchPixels(texture, lobes, pixels, most_probes, true, lanes))
+  for (const FetchedTexel& fetched :
+       fetchPixels(deviceBench(), texture, lobes, pixels, most_probes, true, lanes))
     probes += fetched.count;
   timeKernel(state, "probeTexture", kPixels, "px",
-             [&] { fetchPixels(texture, lobes, pixels, most_probes, true, lanes); });
+             [&] { fetchPixels(deviceBench(), texture, lobes, pixels, most_probes, true, lanes); });
   state.counters["probes/px"] = probes / static_cast<double>(kPixels);
 }
 

@@ -21,11 +21,12 @@ void registerAll() {
   registerLanes("cellAndPairSeed", [](benchmark::State& state, int lanes) {
     const auto cells = randomWords<std::int32_t>();
     timeKernel(state, "probeHash", kCount, "seed",
-               [&] { probeHash(cells, cells, cells, cells, lanes); });
+               [&] { probeHash(deviceBench(), cells, cells, cells, cells, lanes); });
   });
   registerLanes("uniformAndGauss", [](benchmark::State& state, int lanes) {
     const auto bits = randomWords<std::uint32_t>();
-    timeKernel(state, "probeRandom", kCount, "draw", [&] { probeRandom(bits, lanes); });
+    timeKernel(state, "probeRandom", kCount, "draw",
+               [&] { probeRandom(deviceBench(), bits, lanes); });
   });
 }
 

@@ -13,7 +13,7 @@ constexpr std::uint64_t kRays = 1 << 16;
 
 void cast(benchmark::State& state, SimulationSettings settings, int lanes) {
   settings.rays = kRays;
-  KernelBench& bench = KernelBench::shared();
+  KernelBench& bench = deviceBench();
   Simulator simulator(bench.device, bench.cache, lanes);
   timeKernel(state, "traceRays", static_cast<double>(kRays), "ray",
              [&] { simulator.run(settings); });

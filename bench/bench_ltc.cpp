@@ -46,7 +46,8 @@ void light(benchmark::State& state, int corners, bool clipless, bool diffuse, in
   probe.width = lanes;
   probe.clipless = clipless;
   const std::vector<HandMadePoint> points = floorPoints();
-  timeKernel(state, "probeAreaLights", kPoints, "point", [&] { lightPoints(probe, points); });
+  timeKernel(state, "probeAreaLights", kPoints, "point",
+             [&] { lightPoints(deviceBench(), probe, points); });
 }
 
 void registerAll() {

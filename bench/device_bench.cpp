@@ -9,13 +9,14 @@
 #include "host/core/error.h"
 #include "host/core/trace.h"
 #include "host/experiment/session.h"
-#include "host/harness/pixel_harness.h"
 #include "host/report/record/run_info.h"
 
 namespace glintmark::bench {
 namespace {
 
 int chosen_lanes = 1;
+// Lives as long as the program: drivers dislike late teardown.
+KernelBench* opened_bench = nullptr;
 
 // Takes `--name value` out of the arguments; nothing if it is not there.
 std::string takeOption(int& argc, char** argv, const char* name) {
@@ -57,7 +58,8 @@ int runAll(int argc, char** argv, void (*registerAll)(), bool on_device) {
     session.words.assign(argv, argv + argc);
     session.common = takeCommonOptions(argc, argv);
     if (on_device) {
-      const Device& device = KernelBench::open(openDevice(session.common)).device;
+      opened_bench = new KernelBench(openDevice(session.common));
+      const Device& device = opened_bench->device;
       chosen_lanes = chosenLanes(session.common, device);
       addContext(describeRun(session, device));
     } else {
@@ -87,6 +89,10 @@ double kernelNs(const std::string& kernel) {
 }
 
 }  // namespace
+
+KernelBench& deviceBench() {
+  return *opened_bench;
+}
 
 std::vector<int> laneCounts() {
   return chosen_lanes > 1 ? std::vector{1, chosen_lanes} : std::vector{1};

@@ -7,7 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "host/harness/kernel_bench.h"
+
 namespace glintmark::bench {
+
+/// The device that runDeviceBenchmarks() opened, with its programs.
+KernelBench& deviceBench();
 
 /// Lane counts to measure: one, and the chosen one where it is wider.
 std::vector<int> laneCounts();
@@ -23,7 +28,7 @@ void registerLanes(const std::string& name,
                    const std::function<void(benchmark::State&, int lanes)>& run);
 
 /// main() of a program. Takes --device I|NAME and --width W beside Google Benchmark's options, puts
-/// the run's facts into the context of its output, opens KernelBench and runs what `registerAll`
+/// the run's facts into the context of its output, opens deviceBench() and runs what `registerAll`
 /// registers. Exit code 0, 2 for bad usage or an error, 3 for no device.
 int runDeviceBenchmarks(int argc, char** argv, void (*registerAll)());
 /// The same for code of the host: no device is opened.

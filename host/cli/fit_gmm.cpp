@@ -146,7 +146,7 @@ Fitted fitMap(const CommonOptions& common, const FitGmmCommand& command, NormalM
 }
 
 Fitted readFitted(const FitGmmCommand& command, NormalMap map) {
-  NormalMixtures mixtures = parseMixtures(readTextFile(command.check), command.check);
+  NormalMixtures mixtures = parseMixtures(readFile(command.check), command.check);
   const MipTexture& layout = mixtures.moments.layout;
   if (static_cast<int>(layout.width) != map.width_px ||
       static_cast<int>(layout.height) != map.height_px) {

@@ -139,7 +139,7 @@ int runSimulate(const CommandLine& line, const SimulateOptions& options) {
     throw Error(fmt::format("--output '{}' must end in .png", options.picture));
   Simulation simulation{settings, 0, {}};
   if (options.resume)
-    simulation = unpackSimulation(readTextFile(options.checkpoint), settings, options.checkpoint);
+    simulation = unpackSimulation(readFile(options.checkpoint), settings, options.checkpoint);
 
   Device device = openDevice(line.common);
   ProgramCache cache(device);

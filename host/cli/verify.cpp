@@ -13,7 +13,7 @@
 #include "host/core/error.h"
 #include "host/core/stopwatch.h"
 #include "host/experiment/interrupt.h"
-#include "host/harness/pixel_harness.h"
+#include "host/harness/kernel_bench.h"
 #include "host/report/record/text_table.h"
 #include "host/verify/check.h"
 
@@ -45,7 +45,8 @@ void showProgress(const std::string& text) {
   if (isatty(STDERR_FILENO)) fmt::print(stderr, "\r\033[K{}", text);
 }
 
-std::vector<CheckResult> runAll(const std::vector<Check>& checks, int lanes, bool quiet) {
+std::vector<CheckResult> runAll(const std::vector<Check>& checks, const CheckContext& context,
+                                bool quiet) {
   const InterruptGuard guard;
   std::vector<CheckResult> results;
   for (const Check& check : checks) {
@@ -53,7 +54,7 @@ std::vector<CheckResult> runAll(const std::vector<Check>& checks, int lanes, boo
       throw Interrupted("interrupted; nothing is written of a verification that is not whole");
     if (!quiet)
       showProgress(fmt::format("{}/{} {}", results.size() + 1, checks.size(), check.name));
-    results.push_back(runCheck(check, lanes));
+    results.push_back(runCheck(check, context));
   }
   if (!quiet) showProgress("");
   return results;
@@ -108,10 +109,10 @@ int runVerify(const CommandLine& line, const VerifyOptions& options) {
     return kExitDone;
   }
   if (!options.json.empty()) requireWritableFile(options.json);
-  KernelBench& bench = KernelBench::open(openDevice(line.common));
+  KernelBench bench(openDevice(line.common));
   const RunInfo run = describeRun(line, bench.device);
   const Stopwatch watch;
-  const std::vector<CheckResult> results = runAll(checks, run.width, line.common.quiet);
+  const std::vector<CheckResult> results = runAll(checks, {bench, run.width}, line.common.quiet);
   const double seconds = watch.elapsedNs() * 1e-9;
   if (!options.json.empty()) writeFile(options.json, verificationJson(run, results, seconds));
 

@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <sstream>
 
 #include "host/core/error.h"
 
@@ -44,15 +44,19 @@ AtomicFile::~AtomicFile() {
   if (!committed_) unlink(temp_.c_str());
 }
 
-void AtomicFile::commit() {
+void AtomicFile::commit(Durability durability) {
+  if (durability == Durability::kSynced) sync();
+  if (std::rename(temp_.c_str(), target_.c_str()) != 0) fail("write", target_, errno);
+  committed_ = true;
+}
+
+void AtomicFile::sync() const {
   const int descriptor = open(temp_.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) fail("write", target_, errno);
   const int synced = fsync(descriptor);
   const int sync_error = errno;
   close(descriptor);
   if (synced != 0) fail("write", target_, sync_error);
-  if (std::rename(temp_.c_str(), target_.c_str()) != 0) fail("write", target_, errno);
-  committed_ = true;
 }
 
 void writeAll(int descriptor, std::string_view text, const fs::path& path) {
@@ -65,27 +69,41 @@ void writeAll(int descriptor, std::string_view text, const fs::path& path) {
 }
 
 void writeFile(const fs::path& target, std::string_view text) {
+  writeFile(target, {text}, Durability::kSynced);
+}
+
+void writeFile(const fs::path& target, std::initializer_list<std::string_view> pieces,
+               Durability durability) {
   AtomicFile file(target);
   const int descriptor = open(file.tempPath().c_str(), O_WRONLY | O_CLOEXEC);
   if (descriptor < 0) fail("write", target, errno);
   try {
-    writeAll(descriptor, text, target);
+    for (const std::string_view piece : pieces) writeAll(descriptor, piece, target);
   } catch (...) {
     close(descriptor);
     throw;
   }
   if (close(descriptor) != 0) fail("write", target, errno);
-  file.commit();
+  file.commit(durability);
 }
 
-std::string readTextFile(const fs::path& path) {
-  if (fs::is_directory(path)) fail("read", path, EISDIR);
+std::string readFile(const fs::path& path) {
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored)) fail("read", path, EISDIR);
   std::ifstream stream(path, std::ios::binary);
   if (!stream) fail("read", path, errno);
-  std::ostringstream text;
-  text << stream.rdbuf();
+  // Its size at once, or in pieces where the system knows none, as of pipes and /proc.
+  constexpr std::size_t kLeastPiece = 1 << 16;
+  const std::uintmax_t size = fs::is_regular_file(path, ignored) ? fs::file_size(path, ignored) : 0;
+  std::string text;
+  for (std::size_t piece = std::max<std::size_t>(size + 1, kLeastPiece); stream;) {
+    const std::size_t read = text.size();
+    text.resize(read + piece);
+    stream.read(text.data() + read, static_cast<std::streamsize>(piece));
+    text.resize(read + static_cast<std::size_t>(stream.gcount()));
+  }
   if (stream.bad()) fail("read", path, EIO);
-  return std::move(text).str();
+  return text;
 }
 
 void requireWritableFolder(const fs::path& folder) {

@@ -1,10 +1,15 @@
-// Files that appear whole or not at all.
+// Whole files: written, they appear whole or not at all.
 #pragma once
 #include <filesystem>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 
 namespace glintmark {
+
+/// What is left of a file that was written just before the machine stops: with kSynced all of it or
+/// the file before it; with kUnsynced perhaps part of it, for what can be made again.
+enum class Durability { kSynced, kUnsynced };
 
 /// A temporary file beside `target` that takes its name on commit(); without commit() it is
 /// removed and the target stays as it was.
@@ -18,10 +23,12 @@ class AtomicFile {
   AtomicFile& operator=(const AtomicFile&) = delete;
 
   const std::filesystem::path& tempPath() const { return temp_; }
-  /// Flushes to the disk and renames. Throws Error if either fails.
-  void commit();
+  /// Flushes to the disk, unless told not to, and renames. Throws Error if either fails.
+  void commit(Durability durability = Durability::kSynced);
 
  private:
+  void sync() const;
+
   std::filesystem::path target_;
   std::filesystem::path temp_;
   bool committed_ = false;
@@ -29,9 +36,12 @@ class AtomicFile {
 
 /// Writes a whole file of text or bytes. Throws Error naming the file and the system's reason.
 void writeFile(const std::filesystem::path& target, std::string_view text);
+/// The same of pieces that follow each other.
+void writeFile(const std::filesystem::path& target, std::initializer_list<std::string_view> pieces,
+               Durability durability);
 
-/// Reads a whole text file. Throws Error naming the file and the system's reason.
-std::string readTextFile(const std::filesystem::path& path);
+/// Reads a whole file of text or bytes. Throws Error naming the file and the system's reason.
+std::string readFile(const std::filesystem::path& path);
 
 /// Creates `folder` with its parents and makes sure that files can be created in it. Throws Error
 /// saying what stands in the way.

@@ -1,15 +1,15 @@
 #include "host/core/disk_cache.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <string_view>
 #include <system_error>
 
+#include "host/core/atomic_file.h"
+#include "host/core/error.h"
 #include "host/core/fnv1a.h"
 
 namespace glintmark {
@@ -77,13 +77,12 @@ fs::path DiskCache::entryPath(const std::string& name) const {
 
 std::optional<std::string> DiskCache::load(const std::string& name, const std::string& key) const {
   if (folder_.empty()) return std::nullopt;
-  std::error_code error;
-  const auto bytes = fs::file_size(entryPath(name), error);
-  if (error) return std::nullopt;
-  std::string entry(bytes, '\0');
-  std::ifstream file(entryPath(name), std::ios::binary);
-  if (!file.read(entry.data(), static_cast<std::streamsize>(bytes))) return std::nullopt;
-
+  std::string entry;
+  try {
+    entry = readFile(entryPath(name));
+  } catch (const Error&) {
+    return std::nullopt;
+  }
   EntryReader reader(entry);
   if (reader.take(kMagic.size()) != kMagic) return std::nullopt;
   if (reader.take(reader.takeNumber()) != key) return std::nullopt;
@@ -107,14 +106,11 @@ void DiskCache::store(const std::string& name, const std::string& key,
 
   std::error_code error;
   fs::create_directories(folder_, error);
-  const fs::path path = entryPath(name);
-  const fs::path temporary = path.string() + fmt::format(".{}.tmp", ::getpid());
-  std::ofstream file(temporary, std::ios::binary);
-  file.write(head.data(), static_cast<std::streamsize>(head.size()));
-  file.write(binary.data(), static_cast<std::streamsize>(binary.size()));
-  file.close();
-  if (file) fs::rename(temporary, path, error);
-  if (!file || error) fs::remove(temporary, error);
+  try {
+    writeFile(entryPath(name), {head, binary}, Durability::kUnsynced);
+  } catch (const Error&) {
+    // The next run computes it again.
+  }
 }
 
 }  // namespace glintmark

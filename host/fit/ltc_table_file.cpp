@@ -2,12 +2,10 @@
 #include <fmt/format.h>
 
 #include <bit>
-#include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 
+#include "host/core/atomic_file.h"
 #include "host/core/error.h"
 #include "host/fit/data_folder.h"
 #include "host/fit/ltc_table.h"
@@ -100,12 +98,7 @@ LtcTable loadLtcTable(const std::filesystem::path& path) {
   if (!std::filesystem::is_regular_file(path, error)) {
     throw Error(fmt::format("no LTC table {}; `glintmark fit ltc` writes one", path.string()));
   }
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
-    throw Error(
-        fmt::format("cannot read the LTC table {}: {}", path.string(), std::strerror(errno)));
-  }
-  return parseLtcTable(std::string{std::istreambuf_iterator<char>(file), {}}, path.string());
+  return parseLtcTable(readFile(path), path.string());
 }
 
 LtcTable shippedLtcTable(reference::Ndf ndf) {

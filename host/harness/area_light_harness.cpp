@@ -1,28 +1,21 @@
 #include "host/harness/area_light_harness.h"
 
+#include "host/ocl/upload.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "host/frame/effect/area_lights.h"
-#include "host/harness/pixel_harness.h"
 
 namespace glintmark {
 namespace {
 
-constexpr std::size_t kLocalSize = 16;
 constexpr const char* kProbes = "probes/probe_area_light.cl";
 
 template <typename T>
-Buffer upload(const std::vector<T>& items) {
-  Buffer buffer(KernelBench::shared().device, items.size() * sizeof(T), BufferPurpose::kProbe,
-                "probe input");
-  buffer.write(items.data(), items.size() * sizeof(T));
-  return buffer;
-}
-
-std::size_t paddedCount(std::size_t n) {
-  return (n + 15) / 16 * 16;
+Buffer probeData(KernelBench& bench, const std::vector<T>& items) {
+  return upload(bench.device, items, BufferPurpose::kProbe);
 }
 
 // Ten planes of numbers.
@@ -43,23 +36,24 @@ std::vector<float> pointPlanes(const std::vector<HandMadePoint>& points, std::si
 
 }  // namespace
 
-std::vector<glm::vec3> lightPoints(const AreaLightProbe& probe,
+std::vector<glm::vec3> lightPoints(KernelBench& bench, const AreaLightProbe& probe,
                                    const std::vector<HandMadePoint>& points) {
   const std::size_t stride = paddedCount(points.size());
   std::size_t vertices = 3;
   for (const AreaLight& light : probe.lights) vertices = std::max(vertices, light.vertices.size());
   const bool diffuse = probe.material.surface.albedo.x > 0;
-  Buffer out(KernelBench::shared().device, 3 * stride * 4, BufferPurpose::kProbe, "probe output");
-  const std::vector<KernelArg> args = {upload(pointPlanes(points, stride)),
-                                       upload(std::vector{probe.material}),
-                                       upload(prepareAreaLights(probe.lights, glm::dvec3(0))),
-                                       upload(probe.table.values),
-                                       out,
-                                       static_cast<std::uint32_t>(probe.lights.size()),
-                                       static_cast<std::uint32_t>(probe.table.size),
-                                       static_cast<std::uint32_t>(stride)};
+  Buffer out(bench.device, 3 * stride * 4, BufferPurpose::kProbe);
+  const std::vector<KernelArg> args = {
+      probeData(bench, pointPlanes(points, stride)),
+      probeData(bench, std::vector{probe.material}),
+      probeData(bench, prepareAreaLights(probe.lights, glm::dvec3(0))),
+      probeData(bench, probe.table.values),
+      out,
+      static_cast<std::uint32_t>(probe.lights.size()),
+      static_cast<std::uint32_t>(probe.table.size),
+      static_cast<std::uint32_t>(stride)};
   probeKernel(
-      kProbes, "probeAreaLights",
+      bench, kProbes, "probeAreaLights",
       fmt::format("-D WIDTH={} -D LTC=1 -D LIGHT_VERTICES={} -D DIFFUSE={:d} -D CLIPLESS={:d}",
                   probe.width, vertices, diffuse, probe.clipless))
       .launch(args, stride / static_cast<std::size_t>(probe.width), kLocalSize);
@@ -71,15 +65,14 @@ std::vector<glm::vec3> lightPoints(const AreaLightProbe& probe,
   return result;
 }
 
-std::vector<float> footprintAlphas(LtcMethod method, float micro, const std::vector<float>& lengths,
-                                   int width) {
+std::vector<float> footprintAlphas(KernelBench& bench, LtcMethod method, float micro,
+                                   const std::vector<float>& lengths, int width) {
   std::vector<float> padded = lengths;
   padded.resize(paddedCount(lengths.size()), lengths.back());
-  Buffer out(KernelBench::shared().device, padded.size() * 4, BufferPurpose::kProbe,
-             "probe output");
-  const std::vector<KernelArg> args = {upload(padded), out,
+  Buffer out(bench.device, padded.size() * 4, BufferPurpose::kProbe);
+  const std::vector<KernelArg> args = {probeData(bench, padded), out,
                                        static_cast<std::uint32_t>(padded.size()), micro};
-  probeKernel(kProbes, "probeFootprintAlpha",
+  probeKernel(bench, kProbes, "probeFootprintAlpha",
               fmt::format("-D WIDTH={} -D LTC=1 -D LTC_METHOD={}", width, static_cast<int>(method)))
       .launch(args, padded.size() / static_cast<std::size_t>(width), kLocalSize);
   out.read(padded.data(), padded.size() * 4);

@@ -5,6 +5,7 @@
 
 #include "host/core/shared_types.h"
 #include "host/fit/ltc_table.h"
+#include "host/harness/kernel_bench.h"
 #include "host/ocl/kernel_config.h"
 #include "host/scene/area_light.h"
 
@@ -27,12 +28,12 @@ struct AreaLightProbe {
 };
 
 /// Radiance of each point. Vertices and diffuse term as the frame would choose them.
-std::vector<glm::vec3> lightPoints(const AreaLightProbe& probe,
+std::vector<glm::vec3> lightPoints(KernelBench& bench, const AreaLightProbe& probe,
                                    const std::vector<HandMadePoint>& points);
 
 /// Overall roughness by the kernels. `lengths` are of mean normals.
-std::vector<float> footprintAlphas(LtcMethod method, float micro, const std::vector<float>& lengths,
-                                   int width);
+std::vector<float> footprintAlphas(KernelBench& bench, LtcMethod method, float micro,
+                                   const std::vector<float>& lengths, int width);
 
 /// A table whose lobe is the clamped cosine itself, where the view is along the normal and alpha 1.
 LtcTable identityTable();

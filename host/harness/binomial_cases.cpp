@@ -21,8 +21,8 @@ float binomialTrials(const BinomialCase& c, std::mt19937& random) {
   return static_cast<float>(whole + (more ? 1 : 0));
 }
 
-std::vector<float> binomialDraws(const BinomialCase& c, GlintMethod method, bool stratified,
-                                 int lanes) {
+std::vector<float> binomialDraws(KernelBench& bench, const BinomialCase& c, GlintMethod method,
+                                 bool stratified, int lanes) {
   std::mt19937 random(11);
   std::vector<float> u(kBinomialDraws), n(kBinomialDraws);
   const std::vector<float> p(kBinomialDraws, static_cast<float>(c.p));
@@ -32,7 +32,7 @@ std::vector<float> binomialDraws(const BinomialCase& c, GlintMethod method, bool
     u[i] = static_cast<float>(uniform);
     n[i] = binomialTrials(c, random);
   }
-  return probeBinomial(u, n, p, method, lanes);
+  return probeBinomial(bench, u, n, p, method, lanes);
 }
 
 double floatSpacing(double x) {

@@ -3,6 +3,7 @@
 #include <random>
 #include <vector>
 
+#include "host/harness/kernel_bench.h"
 #include "host/ocl/kernel_config.h"
 
 namespace glintmark {
@@ -18,8 +19,8 @@ std::vector<BinomialCase> binomialGrid();
 float binomialTrials(const BinomialCase& c, std::mt19937& random);
 
 /// kBinomialDraws draws of the kernels; `stratified`: their uniforms are evenly spaced.
-std::vector<float> binomialDraws(const BinomialCase& c, GlintMethod method, bool stratified,
-                                 int lanes);
+std::vector<float> binomialDraws(KernelBench& bench, const BinomialCase& c, GlintMethod method,
+                                 bool stratified, int lanes);
 
 /// Distance between floats around x: counts beyond 2^24 are held to that.
 double floatSpacing(double x);

@@ -14,7 +14,6 @@
 namespace glintmark {
 namespace {
 
-constexpr std::size_t kLocalSize = 16;  // one everywhere: each new one is compiled anew by PoCL
 constexpr std::uint32_t kLimitedBit = 0x80000000u;
 
 float4 toFloat4(const glm::dvec3& v) {
@@ -71,26 +70,10 @@ glm::dvec3 toDouble(const float4& v) {
 
 }  // namespace
 
-namespace {
-
-// Lives as long as the program: drivers dislike late teardown.
-KernelBench* the_bench = nullptr;
-
-}  // namespace
-
-KernelBench& KernelBench::open(Device device) {
-  the_bench = new KernelBench(std::move(device));
-  return *the_bench;
-}
-
-KernelBench& KernelBench::shared() {
-  return the_bench ? *the_bench : open(Device());
-}
-
-ShadedPixels shadePixels(const HandMadeFrame& frame, KernelConfig config) {
+ShadedPixels shadePixels(KernelBench& bench, const HandMadeFrame& frame, KernelConfig config) {
   ShadedPixels result;
   if (frame.pixels.empty()) return result;
-  Device& device = KernelBench::shared().device;
+  Device& device = bench.device;
   config.planes = planesFor(config);
   const std::size_t n = frame.pixels.size();
   const std::size_t stride = (n + GM_LIST_PADDING - 1) / GM_LIST_PADDING * GM_LIST_PADDING;
@@ -107,7 +90,7 @@ ShadedPixels shadePixels(const HandMadeFrame& frame, KernelConfig config) {
   arguments.add("radiance", radiance);
   if (config.count_cells) arguments.add("cell_counts", counts);
   const auto lanes = static_cast<std::size_t>(config.width);
-  Kernel kernel = KernelBench::shared().cache.get("shade.cl", config).kernel("shade");
+  Kernel kernel = bench.cache.get("shade.cl", config).kernel("shade");
   launchShading(kernel, arguments, (n + lanes - 1) / lanes, kLocalSize);
 
   std::vector<float> words(stride * 3);
@@ -156,13 +139,14 @@ PackedFrame flatFrame() {
   return packFrame({0, 0, 1}, {1, 0, 0}, false);
 }
 
-glm::dvec2 deviceStretch(const MaterialParams& material) {
-  Device& device = KernelBench::shared().device;
+glm::dvec2 deviceStretch(KernelBench& bench, const MaterialParams& material) {
+  Device& device = bench.device;
   const std::vector<float4> alphas = {{material.surface.alpha_g.x, material.surface.alpha_g.y,
                                        material.glints.alpha_l.x, material.glints.alpha_l.y}};
   Buffer out(device, 8, BufferPurpose::kProbe, "stretch");
   const KernelArg args[] = {probeData(device, alphas), out, std::uint32_t{1}};
-  probeKernel("probes/probe_glint.cl", "probeStretch", "-D WIDTH=1").launch(args, 1, kLocalSize);
+  probeKernel(bench, "probes/probe_glint.cl", "probeStretch", "-D WIDTH=1")
+      .launch(args, 1, kLocalSize);
   float2 stretch;
   out.read(&stretch, 8);
   return {stretch.x, stretch.y};
@@ -199,10 +183,6 @@ std::vector<reference::PointLight> referenceLights(const HandMadeFrame& frame) {
   for (const ConeLight& light : frame.lights)
     lights.push_back({glm::normalize(toDouble(light.direction)), toDouble(light.irradiance)});
   return lights;
-}
-
-Kernel probeKernel(const std::string& file, const std::string& name, const std::string& switches) {
-  return KernelBench::shared().cache.getWithOptions(file, switches).kernel(name);
 }
 
 }  // namespace glintmark

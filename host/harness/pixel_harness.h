@@ -3,33 +3,19 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
-#include <span>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "host/core/frame_packing.h"
 #include "host/core/shared_types.h"
 #include "host/frame/effect/scattering_params.h"
-#include "host/ocl/compute.h"
-#include "host/ocl/device.h"
+#include "host/harness/kernel_bench.h"
+#include "host/ocl/kernel_config.h"
 #include "host/reference/pixel.h"
 
 namespace glintmark {
 
 /// Widths that every property of the kernels is checked at.
 inline constexpr int kAllWidths[] = {1, 4, 8, 16};
-
-/// The device under test and its programs, one for the whole process: shared() opens the default
-/// device unless open() chose another before it.
-struct KernelBench {
-  explicit KernelBench(Device opened) : device(std::move(opened)), cache(device) {}
-  Device device;
-  ProgramCache cache;
-
-  static KernelBench& open(Device device);
-  static KernelBench& shared();
-};
 
 /// One entry of the planes.
 struct HandMadePixel {
@@ -55,7 +41,7 @@ struct ShadedPixels {
 };
 
 /// Launches "shade" once. `config.planes` is filled in.
-ShadedPixels shadePixels(const HandMadeFrame& frame, KernelConfig config);
+ShadedPixels shadePixels(KernelBench& bench, const HandMadeFrame& frame, KernelConfig config);
 
 /// A material with one roughness per axis, white F0, no diffuse term, no colours.
 MaterialParams simpleMaterial(float2 alpha_g, float2 alpha_l, float density,
@@ -68,14 +54,11 @@ reference::FixedCoordinate fixedCoordinate(double coordinate);
 PackedFrame flatFrame();
 
 /// The kernels' grid stretch of a material (its bits are taken over by the reference).
-glm::dvec2 deviceStretch(const MaterialParams& material);
+glm::dvec2 deviceStretch(KernelBench& bench, const MaterialParams& material);
 
 /// The reference's view of the same things.
 reference::Glints referenceGlints(const MaterialParams& material, bool groove = false);
 reference::SurfacePixel referencePixel(const HandMadeFrame& frame, const HandMadePixel& pixel);
 std::vector<reference::PointLight> referenceLights(const HandMadeFrame& frame);
-
-/// A kernel of kernels/<file> with the given switches of config.clh.
-Kernel probeKernel(const std::string& file, const std::string& name, const std::string& switches);
 
 }  // namespace glintmark

@@ -5,26 +5,15 @@
 #include <algorithm>
 #include <bit>
 
-#include "host/harness/pixel_harness.h"
 #include "host/ocl/switches.h"
-
+#include "host/ocl/upload.h"
 namespace glintmark {
 namespace {
 
-constexpr std::size_t kLocalSize = 16;
-
-// Entries are padded so that no lane runs past the end.
-std::size_t paddedCount(std::size_t n) {
-  return (n + 15) / 16 * 16;
-}
-
 template <typename T>
-Buffer upload(std::vector<T> values) {
+Buffer probeData(KernelBench& bench, std::vector<T> values) {
   values.resize(paddedCount(values.size()), values.empty() ? T{} : values.back());
-  Buffer buffer(KernelBench::shared().device, values.size() * 4, BufferPurpose::kProbe,
-                "probe input");
-  buffer.write(values.data(), values.size() * 4);
-  return buffer;
+  return upload(bench.device, values, BufferPurpose::kProbe);
 }
 
 template <typename T>
@@ -34,49 +23,53 @@ std::vector<T> download(const Buffer& buffer, std::size_t first, std::size_t cou
   return {values.begin() + static_cast<std::ptrdiff_t>(first), values.end()};
 }
 
-void launch(const std::string& file, const std::string& name, const std::string& switches,
-            int width, const std::vector<KernelArg>& args, std::size_t padded) {
-  probeKernel(file, name, fmt::format("-D WIDTH={} {}", width, switches))
+void launch(KernelBench& bench, const std::string& file, const std::string& name,
+            const std::string& switches, int width, const std::vector<KernelArg>& args,
+            std::size_t padded) {
+  probeKernel(bench, file, name, fmt::format("-D WIDTH={} {}", width, switches))
       .launch(args, padded / static_cast<std::size_t>(width), kLocalSize);
 }
 
-Buffer makeOutput(std::size_t words) {
-  return Buffer(KernelBench::shared().device, words * 4, BufferPurpose::kProbe, "probe output");
+Buffer makeOutput(KernelBench& bench, std::size_t words) {
+  return Buffer(bench.device, words * 4, BufferPurpose::kProbe);
 }
 
 }  // namespace
 
-std::vector<float> probeMath(MathFunction function, const std::vector<float>& x, int width) {
+std::vector<float> probeMath(KernelBench& bench, MathFunction function, const std::vector<float>& x,
+                             int width) {
   const std::size_t padded = paddedCount(x.size());
-  Buffer out = makeOutput(padded);
-  launch("probes/probe_glint.cl", "probeMath", "", width,
-         {upload(x), out, static_cast<std::uint32_t>(padded), static_cast<std::int32_t>(function)},
+  Buffer out = makeOutput(bench, padded);
+  launch(bench, "probes/probe_glint.cl", "probeMath", "", width,
+         {probeData(bench, x), out, static_cast<std::uint32_t>(padded),
+          static_cast<std::int32_t>(function)},
          padded);
   return download<float>(out, 0, x.size());
 }
 
-HashProbe probeHash(const std::vector<std::int32_t>& cell_u,
+HashProbe probeHash(KernelBench& bench, const std::vector<std::int32_t>& cell_u,
                     const std::vector<std::int32_t>& cell_v, const std::vector<std::int32_t>& ju,
                     const std::vector<std::int32_t>& jv, int width) {
   const std::size_t n = cell_u.size(), padded = paddedCount(n);
-  Buffer out = makeOutput(3 * padded);
-  launch("probes/probe_glint.cl", "probeHash", "", width,
-         {upload(cell_u), upload(cell_v), upload(ju), upload(jv), out,
-          static_cast<std::uint32_t>(padded)},
+  Buffer out = makeOutput(bench, 3 * padded);
+  launch(bench, "probes/probe_glint.cl", "probeHash", "", width,
+         {probeData(bench, cell_u), probeData(bench, cell_v), probeData(bench, ju),
+          probeData(bench, jv), out, static_cast<std::uint32_t>(padded)},
          padded);
   return {download<std::uint32_t>(out, 0, n), download<std::uint32_t>(out, padded, n),
           download<std::uint32_t>(out, 2 * padded, n)};
 }
 
-RandomProbe probeRandom(const std::vector<std::uint32_t>& bits, int width) {
+RandomProbe probeRandom(KernelBench& bench, const std::vector<std::uint32_t>& bits, int width) {
   const std::size_t padded = paddedCount(bits.size());
-  Buffer out = makeOutput(2 * padded);
-  launch("probes/probe_glint.cl", "probeRandom", "", width,
-         {upload(bits), out, static_cast<std::uint32_t>(padded)}, padded);
+  Buffer out = makeOutput(bench, 2 * padded);
+  launch(bench, "probes/probe_glint.cl", "probeRandom", "", width,
+         {probeData(bench, bits), out, static_cast<std::uint32_t>(padded)}, padded);
   return {download<float>(out, 0, bits.size()), download<float>(out, padded, bits.size())};
 }
 
-FootprintProbe probeFootprints(const std::vector<reference::PixelFootprint>& footprints,
+FootprintProbe probeFootprints(KernelBench& bench,
+                               const std::vector<reference::PixelFootprint>& footprints,
                                const glm::dvec2& stretch, GlintMethod method, int ka, int width) {
   const std::size_t n = footprints.size(), padded = paddedCount(n);
   std::vector<std::uint32_t> planes(8 * padded);
@@ -93,23 +86,26 @@ FootprintProbe probeFootprints(const std::vector<reference::PixelFootprint>& foo
                                    bits(f.duv_dy.y)};
     for (std::size_t k = 0; k < 8; ++k) planes[k * padded + i] = words[k];
   }
-  Buffer out = makeOutput(4 * padded);
-  launch("probes/probe_glint.cl", "probeFootprint",
+  Buffer out = makeOutput(bench, 4 * padded);
+  launch(bench, "probes/probe_glint.cl", "probeFootprint",
          fmt::format("-D GLINT_METHOD={} -D KA={}", choiceName(method), ka), width,
-         {upload(planes), out, static_cast<std::uint32_t>(padded), static_cast<float>(stretch.x),
-          static_cast<float>(stretch.y)},
+         {probeData(bench, planes), out, static_cast<std::uint32_t>(padded),
+          static_cast<float>(stretch.x), static_cast<float>(stretch.y)},
          padded);
   return {download<float>(out, 0, n), download<float>(out, padded, n),
           download<float>(out, 2 * padded, n), download<float>(out, 3 * padded, n)};
 }
 
-std::vector<float> probeBinomial(const std::vector<float>& u, const std::vector<float>& n,
-                                 const std::vector<float>& p, GlintMethod method, int width) {
+std::vector<float> probeBinomial(KernelBench& bench, const std::vector<float>& u,
+                                 const std::vector<float>& n, const std::vector<float>& p,
+                                 GlintMethod method, int width) {
   const std::size_t padded = paddedCount(u.size());
-  Buffer out = makeOutput(padded);
-  launch("probes/probe_binomial.cl", "probeBinomial",
+  Buffer out = makeOutput(bench, padded);
+  launch(bench, "probes/probe_binomial.cl", "probeBinomial",
          fmt::format("-D GLINT_METHOD={}", choiceName(method)), width,
-         {upload(u), upload(n), upload(p), out, static_cast<std::uint32_t>(padded)}, padded);
+         {probeData(bench, u), probeData(bench, n), probeData(bench, p), out,
+          static_cast<std::uint32_t>(padded)},
+         padded);
   return download<float>(out, 0, u.size());
 }
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "host/harness/kernel_bench.h"
 #include "host/ocl/kernel_config.h"
 #include "host/reference/footprint.h"
 
@@ -12,13 +13,14 @@ namespace glintmark {
 enum class MathFunction : std::int32_t { kExp2, kLog2, kReciprocal, kRsqrt, kNormalUpperQuantile };
 
 /// y = function(x) by the kernels of `width` lanes.
-std::vector<float> probeMath(MathFunction function, const std::vector<float>& x, int width);
+std::vector<float> probeMath(KernelBench& bench, MathFunction function, const std::vector<float>& x,
+                             int width);
 
 struct HashProbe {
   std::vector<std::uint32_t> coherent_u, cell_seed, pair_seed;
 };
 /// Coherent index of cell_u, seed of (cell_u, cell_v), and of that with half-vector cell (ju, jv).
-HashProbe probeHash(const std::vector<std::int32_t>& cell_u,
+HashProbe probeHash(KernelBench& bench, const std::vector<std::int32_t>& cell_u,
                     const std::vector<std::int32_t>& cell_v, const std::vector<std::int32_t>& ju,
                     const std::vector<std::int32_t>& jv, int width);
 
@@ -26,17 +28,19 @@ struct RandomProbe {
   std::vector<float> uniform, gauss;
 };
 /// U(bits) and the byte Gaussian of bits.
-RandomProbe probeRandom(const std::vector<std::uint32_t>& bits, int width);
+RandomProbe probeRandom(KernelBench& bench, const std::vector<std::uint32_t>& bits, int width);
 
 struct FootprintProbe {
   std::vector<float> fine_level, coarse_weight, extent_u, extent_v;
 };
 /// Which grids a footprint meets, and its box [uv] after stretching by `stretch`; K_a as given.
-FootprintProbe probeFootprints(const std::vector<reference::PixelFootprint>& footprints,
+FootprintProbe probeFootprints(KernelBench& bench,
+                               const std::vector<reference::PixelFootprint>& footprints,
                                const glm::dvec2& stretch, GlintMethod method, int ka, int width);
 
 /// Number of successes at P(more) = u among n trials of probability p.
-std::vector<float> probeBinomial(const std::vector<float>& u, const std::vector<float>& n,
-                                 const std::vector<float>& p, GlintMethod method, int width);
+std::vector<float> probeBinomial(KernelBench& bench, const std::vector<float>& u,
+                                 const std::vector<float>& n, const std::vector<float>& p,
+                                 GlintMethod method, int width);
 
 }  // namespace glintmark

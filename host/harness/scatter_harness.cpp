@@ -5,15 +5,8 @@
 #include <numbers>
 
 #include "host/frame/effect/scattering_params.h"
-#include "host/harness/pixel_harness.h"
 
 namespace glintmark {
-namespace {
-
-constexpr std::size_t kLocalSize = 16;
-
-}  // namespace
-
 glm::dvec3 directionAt(double cosine, double azimuth_rad) {
   const double sine = std::sqrt(1 - cosine * cosine);
   return {sine * std::cos(azimuth_rad), sine * std::sin(azimuth_rad), cosine};
@@ -40,17 +33,18 @@ Material roughMaterial(DiffuseModel model, double alpha, double albedo, double m
   return material;
 }
 
-std::vector<ScatteredRadiance> probeScatter(const std::vector<DirectionPair>& pairs,
+std::vector<ScatteredRadiance> probeScatter(KernelBench& bench,
+                                            const std::vector<DirectionPair>& pairs,
                                             const Material& material, int lanes,
                                             bool masking_compiled_in) {
-  Device& device = KernelBench::shared().device;
+  Device& device = bench.device;
   KernelConfig config;
   config.width = lanes;
   config.glint = false;
   config.diffuse = true;
   config.multiscatter = static_cast<Multiscatter>(material.diffuse_model);
   config.lobe_masking = masking_compiled_in || material.diffuse_masking > 0;
-  const std::size_t n = (pairs.size() + 15) / 16 * 16;
+  const std::size_t n = paddedCount(pairs.size());
   std::vector<float> in(6 * n), out(2 * n);
   for (std::size_t i = 0; i < n; ++i) {
     const DirectionPair& pair = pairs[std::min(i, pairs.size() - 1)];
@@ -66,7 +60,7 @@ std::vector<ScatteredRadiance> probeScatter(const std::vector<DirectionPair>& pa
   input.write(in.data(), in.size() * 4);
   scatter.write(&prepared, sizeof prepared);
   const std::vector<KernelArg> args = {input, scatter, output, static_cast<std::uint32_t>(n)};
-  probeKernel("probes/probe_scatter.cl", "probeScatter", buildOptions(config))
+  probeKernel(bench, "probes/probe_scatter.cl", "probeScatter", buildOptions(config))
       .launch(args, n / static_cast<std::size_t>(lanes), kLocalSize);
   output.read(out.data(), out.size() * 4);
   std::vector<ScatteredRadiance> result;

@@ -3,6 +3,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "host/harness/kernel_bench.h"
 #include "host/scene/scene.h"
 
 namespace glintmark {
@@ -27,7 +28,8 @@ Material roughMaterial(DiffuseModel model, double alpha, double albedo, double m
 
 /// What the kernels of `lanes` lanes make of the pairs, colours of the albedo included. Masking is
 /// compiled in where the material has some, or where asked for.
-std::vector<ScatteredRadiance> probeScatter(const std::vector<DirectionPair>& pairs,
+std::vector<ScatteredRadiance> probeScatter(KernelBench& bench,
+                                            const std::vector<DirectionPair>& pairs,
                                             const Material& material, int lanes,
                                             bool masking_compiled_in = false);
 

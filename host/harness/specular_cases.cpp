@@ -42,8 +42,8 @@ std::vector<SpecularCase> specularCases(int count, const AreaLight& light, doubl
   return cases;
 }
 
-std::vector<glm::vec3> shadeSpecular(const AreaLight& light, const std::vector<SpecularCase>& cases,
-                                     int lanes) {
+std::vector<glm::vec3> shadeSpecular(KernelBench& bench, const AreaLight& light,
+                                     const std::vector<SpecularCase>& cases, int lanes) {
   AreaLightProbe probe;
   probe.material = whiteSpecular();
   probe.lights = {light};
@@ -51,7 +51,7 @@ std::vector<glm::vec3> shadeSpecular(const AreaLight& light, const std::vector<S
   probe.width = lanes;
   std::vector<HandMadePoint> points;
   for (const SpecularCase& c : cases) points.push_back(c.point);
-  return lightPoints(probe, points);
+  return lightPoints(bench, probe, points);
 }
 
 }  // namespace glintmark

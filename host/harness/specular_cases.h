@@ -23,7 +23,7 @@ AreaLight specularQuad();
 std::vector<SpecularCase> specularCases(int count, const AreaLight& light, double least_alpha);
 
 /// What a white surface reflects of the light at each point, by the kernels.
-std::vector<glm::vec3> shadeSpecular(const AreaLight& light, const std::vector<SpecularCase>& cases,
-                                     int lanes);
+std::vector<glm::vec3> shadeSpecular(KernelBench& bench, const AreaLight& light,
+                                     const std::vector<SpecularCase>& cases, int lanes);
 
 }  // namespace glintmark

@@ -1,5 +1,7 @@
 #include "host/harness/texture_harness.h"
 
+#include "host/ocl/upload.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,12 +9,9 @@
 #include <cmath>
 #include <random>
 
-#include "host/harness/pixel_harness.h"
-
 namespace glintmark {
 namespace {
 
-constexpr std::size_t kLocalSize = 16;
 constexpr int kTextureRepeat = 0, kTextureClamp = 1;  // as in kernels/normals/texture.clh
 
 }  // namespace
@@ -62,11 +61,10 @@ std::vector<TexturePixel> randomFootprints(std::size_t n, std::uint32_t seed) {
   return pixels;
 }
 
-std::vector<FetchedTexel> fetchPixels(const TestTexture& texture, int texel_size,
-                                      const std::vector<TexturePixel>& pixels, int most_probes,
-                                      bool repeat, int width) {
-  Device& device = KernelBench::shared().device;
-  const std::size_t n = (pixels.size() + 15) / 16 * 16;
+std::vector<FetchedTexel> fetchPixels(KernelBench& bench, const TestTexture& texture,
+                                      int texel_size, const std::vector<TexturePixel>& pixels,
+                                      int most_probes, bool repeat, int width) {
+  const std::size_t n = paddedCount(pixels.size());
   std::vector<std::uint32_t> planes(6 * n);
   for (std::size_t i = 0; i < n; ++i) {
     const TexturePixel& p = pixels[std::min(i, pixels.size() - 1)];
@@ -76,22 +74,20 @@ std::vector<FetchedTexel> fetchPixels(const TestTexture& texture, int texel_size
     for (std::size_t d = 0; d < 4; ++d)
       planes[(2 + d) * n + i] = std::bit_cast<std::uint32_t>(derivatives[d]);
   }
-  const auto upload = [&](const auto& items) {
-    Buffer buffer(device, items.size() * sizeof(items[0]), BufferPurpose::kProbe, "texture test");
-    buffer.write(items.data(), items.size() * sizeof(items[0]));
-    return buffer;
+  const auto probeData = [&](const auto& items) {
+    return upload(bench.device, items, BufferPurpose::kProbe);
   };
   const std::size_t components = 4 * static_cast<std::size_t>(texel_size);
   std::vector<float> words((components + 2) * n);
-  Buffer out(device, words.size() * 4, BufferPurpose::kProbe, "texture test");
-  const std::vector<KernelArg> args = {upload(std::vector{texture.header}),
-                                       upload(texture.texels),
-                                       upload(planes),
+  Buffer out(bench.device, words.size() * 4, BufferPurpose::kProbe);
+  const std::vector<KernelArg> args = {probeData(std::vector{texture.header}),
+                                       probeData(texture.texels),
+                                       probeData(planes),
                                        out,
                                        static_cast<std::uint32_t>(n),
                                        most_probes,
                                        repeat ? kTextureRepeat : kTextureClamp};
-  probeKernel("probes/probe_texture.cl", "probeTexture",
+  probeKernel(bench, "probes/probe_texture.cl", "probeTexture",
               fmt::format("-D WIDTH={} -D PROBE_TEXEL_SIZE={}", width, texel_size))
       .launch(args, n / static_cast<std::size_t>(width), kLocalSize);
   out.read(words.data(), words.size() * 4);

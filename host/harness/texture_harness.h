@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "host/core/shared_types.h"
+#include "host/harness/kernel_bench.h"
 #include "host/reference/texture.h"
 
 namespace glintmark {
@@ -35,8 +36,8 @@ struct FetchedTexel {
 };
 
 /// The device's fetch at `width` lanes.
-std::vector<FetchedTexel> fetchPixels(const TestTexture& texture, int texel_size,
-                                      const std::vector<TexturePixel>& pixels, int most_probes,
-                                      bool repeat, int width);
+std::vector<FetchedTexel> fetchPixels(KernelBench& bench, const TestTexture& texture,
+                                      int texel_size, const std::vector<TexturePixel>& pixels,
+                                      int most_probes, bool repeat, int width);
 
 }  // namespace glintmark

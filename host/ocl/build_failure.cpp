@@ -4,10 +4,10 @@
 #include <stdlib.h>
 
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 #include <system_error>
 
+#include "host/core/atomic_file.h"
 #include "host/ocl/kernel_folder.h"
 
 namespace glintmark {
@@ -25,23 +25,21 @@ std::string firstErrorLine(const std::string& log) {
   return first.empty() ? "the driver gave no log" : first;
 }
 
-void writeText(const fs::path& path, const std::string& text) {
-  std::ofstream(path) << text;
-}
-
-// Empty if no folder could be made: the build error matters more than its dump.
-std::string dump(const FailedBuild& failed) {
+// Empty if they could not be saved: the build error matters more than its dump.
+std::string dump(const FailedBuild& failed) try {
   std::error_code error;
   std::string folder = (fs::temp_directory_path(error) / "glintmark-build-XXXXXX").string();
   if (error || !mkdtemp(folder.data())) return {};
-  writeText(fs::path(folder) / "options.txt", failed.options + "\n");
-  writeText(fs::path(folder) / "build.log", failed.log);
+  writeFile(fs::path(folder) / "options.txt", failed.options + "\n");
+  writeFile(fs::path(folder) / "build.log", failed.log);
   for (const fs::path& file : kernelFiles(failed.kernel_folder)) {
     const fs::path copy = fs::path(folder) / file.lexically_relative(failed.kernel_folder);
     fs::create_directories(copy.parent_path(), error);
     fs::copy_file(file, copy, error);
   }
   return folder;
+} catch (const Error&) {
+  return {};
 }
 
 }  // namespace

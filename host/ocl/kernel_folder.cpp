@@ -5,22 +5,14 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <system_error>
 
+#include "host/core/atomic_file.h"
 #include "host/core/error.h"
 #include "host/ocl/compute.h"
 
 namespace glintmark {
 namespace fs = std::filesystem;
-
-std::string readFile(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  if (!file) throw Error(fmt::format("cannot read '{}'", path.string()));
-  return text;
-}
 
 std::vector<fs::path> kernelFiles(const fs::path& folder) {
   std::vector<fs::path> files;

@@ -10,9 +10,6 @@
 
 namespace glintmark {
 
-/// Whole content of a file. Throws Error naming it if it cannot be read.
-std::string readFile(const std::filesystem::path& path);
-
 /// The .cl, .clh and .h files of `folder`, sorted by name. Throws Error if it cannot be listed.
 std::vector<std::filesystem::path> kernelFiles(const std::filesystem::path& folder);
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 
+#include "host/core/atomic_file.h"
 #include "host/core/disk_cache.h"
 #include "host/core/stopwatch.h"
 #include "host/core/trace.h"

@@ -3,9 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 
+#include "host/core/atomic_file.h"
 #include "host/core/error.h"
 #include "host/scene/fit_views.h"
 #include "host/scene/mesh_checks.h"
@@ -16,13 +15,6 @@
 
 namespace glintmark {
 namespace {
-
-std::string readSceneText(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::string text((std::istreambuf_iterator<char>(stream)), {});
-  if (!stream) throw Error(fmt::format("{}: cannot be read", file));
-  return text;
-}
 
 /// Material of a part by the rule that fits its name most closely: the name itself, else the
 /// longest start of it. Material 0 if none does.
@@ -111,7 +103,7 @@ PlannedScene planScene(toml::table& content, const std::string& file, const Scen
 
 Scene loadScene(const SceneRequest& request) {
   const std::string file = findSceneFile(request.scene).string();
-  toml::table content = parseSceneText(readSceneText(file), file);
+  toml::table content = parseSceneText(readFile(file), file);
   PlannedScene planned = planScene(content, file, request);
   const MeshPlan& plan = planned.plan;
   Scene& scene = planned.scene;

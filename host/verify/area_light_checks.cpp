@@ -15,10 +15,10 @@
 namespace glintmark {
 namespace {
 
-Finding kernelIsTheLobe(int lanes) {
+Finding kernelIsTheLobe(const CheckContext& context) {
   const AreaLight light = specularQuad();
   const std::vector<SpecularCase> cases = specularCases(1024, light, 0.01);
-  const std::vector<glm::vec3> values = shadeSpecular(light, cases, lanes);
+  const std::vector<glm::vec3> values = shadeSpecular(context.bench, light, cases, context.lanes);
   Finding finding(kSameLobe);
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const double cosine = glm::dot(cases[i].point.view, cases[i].point.normal);
@@ -32,11 +32,11 @@ Finding kernelIsTheLobe(int lanes) {
   return finding;
 }
 
-Finding hemisphereAlbedo(int lanes) {
+Finding hemisphereAlbedo(const CheckContext& context) {
   AreaLightProbe probe;
   probe.material = whiteSpecular();
   probe.table = shippedGgx();
-  probe.width = lanes;
+  probe.width = context.lanes;
   probe.lights = {polygonLight(rectangleVertices({0, 0, 1}, {0, 0, -1}, {0, 1, 0}, {2e5, 2e5}))};
   Finding finding(kHemisphereAlbedo);
   for (const double alpha : {0.03, 0.3, 1.0})
@@ -44,16 +44,17 @@ Finding hemisphereAlbedo(int lanes) {
       HandMadePoint point;
       point.alpha = alpha;
       point.view = {std::sqrt(1 - cosine * cosine), 0, cosine};
-      finding.add(std::abs(lightPoints(probe, {point})[0].x -
+      finding.add(std::abs(lightPoints(context.bench, probe, {point})[0].x -
                            lookUpLtc(shippedGgx(), alpha, cosine).albedo));
     }
   return finding;
 }
 
-Finding sameBits(int lanes) {
+Finding sameBits(const CheckContext& context) {
   const AreaLight light = specularQuad();
   const std::vector<SpecularCase> cases = specularCases(500, light, 1e-3);
-  const auto one = shadeSpecular(light, cases, 1), wide = shadeSpecular(light, cases, lanes);
+  const auto one = shadeSpecular(context.bench, light, cases, 1),
+             wide = shadeSpecular(context.bench, light, cases, context.lanes);
   double different = 0;
   for (std::size_t i = 0; i < one.size(); ++i) different += one[i] != wide[i];
   Finding finding(0);
@@ -104,17 +105,17 @@ std::vector<HandMadePoint> hardViews() {
 }
 
 // Finite, never negative, never more than the light's radiance. The worst is what is reflected.
-Finding hardLight(const HardLight& light, int lanes) {
+Finding hardLight(const CheckContext& context, const HardLight& light) {
   AreaLightProbe probe;
   probe.material = whiteSpecular();
   probe.material.surface.albedo = {1, 1, 1, 0};
   probe.table = shippedGgx();
   probe.lights = {polygonLight(light.vertices, true)};
-  probe.width = lanes;
+  probe.width = context.lanes;
   Finding finding(kMostReflected);
   for (const bool clipless : {false, true}) {
     probe.clipless = clipless;
-    for (const glm::vec3& value : lightPoints(probe, hardViews())) {
+    for (const glm::vec3& value : lightPoints(context.bench, probe, hardViews())) {
       finding.add(value.x);
       finding.require(std::isfinite(value.x) && value.x >= 0, fmt::format("radiance {}", value.x));
     }
@@ -126,14 +127,17 @@ Finding hardLight(const HardLight& light, int lanes) {
 
 // Lengths of mean normals from 0 to beyond 1: the polynomials as printed; the closed form never
 // smoother than the material, never rougher than 1, smoother the longer the mean.
-Finding meanNormals(int lanes) {
+Finding meanNormals(const CheckContext& context) {
   std::vector<float> lengths;
   for (float length = 0; length <= 1.0005f; length += 0.0005f) lengths.push_back(length);
   Finding finding(kMesoAlpha);
   for (const float micro : {0.001f, 0.03f, 0.3f, 1.0f}) {
-    const auto tao21 = footprintAlphas(LtcMethod::kTao21, micro, lengths, lanes);
-    const auto exact = footprintAlphas(LtcMethod::kExact, micro, lengths, lanes);
-    const auto original = footprintAlphas(LtcMethod::kOriginal, micro, lengths, lanes);
+    const auto tao21 =
+        footprintAlphas(context.bench, LtcMethod::kTao21, micro, lengths, context.lanes);
+    const auto exact =
+        footprintAlphas(context.bench, LtcMethod::kExact, micro, lengths, context.lanes);
+    const auto original =
+        footprintAlphas(context.bench, LtcMethod::kOriginal, micro, lengths, context.lanes);
     for (std::size_t i = 0; i < lengths.size(); ++i) {
       finding.add(std::abs(
           tao21[i] - reference::tao21OverallAlpha(micro, reference::tao21MesoAlpha(lengths[i]))));
@@ -143,7 +147,7 @@ Finding meanNormals(int lanes) {
                       "a longer mean is rougher");
     }
     finding.require(exact.back() == micro, "a mean normal of length 1 changes the roughness");
-    finding.require(exact == footprintAlphas(LtcMethod::kExact, micro, lengths, 1),
+    finding.require(exact == footprintAlphas(context.bench, LtcMethod::kExact, micro, lengths, 1),
                     "lanes differ from one lane");
   }
   return finding;
@@ -159,7 +163,7 @@ std::vector<Check> areaLightChecks() {
       {"area_light/same_bits", "points that differ from one lane's", sameBits}};
   for (const HardLight& light : hardLights())
     checks.push_back({std::string("hard_light/") + light.name, "most that is reflected",
-                      [&light](int lanes) { return hardLight(light, lanes); }});
+                      [&light](const CheckContext& context) { return hardLight(context, light); }});
   return checks;
 }
 

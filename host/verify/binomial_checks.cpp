@@ -16,10 +16,10 @@ namespace glintmark {
 namespace {
 
 // Mean in standard errors, and the variance where a float can hold it.
-Finding moments(GlintMethod method, int lanes) {
+Finding moments(const CheckContext& context, GlintMethod method) {
   Finding finding(kMeanStandardErrors);
   for (const BinomialCase& c : binomialGrid()) {
-    const std::vector<float> k = binomialDraws(c, method, true, lanes);
+    const std::vector<float> k = binomialDraws(context.bench, c, method, true, context.lanes);
     double mean = 0, variance = 0;
     for (const float x : k) {
       finding.require(x >= 0 && x <= std::ceil(c.n),
@@ -51,7 +51,7 @@ double referenceDraw(double u, double n, double p, GlintMethod method) {
 }
 
 // Summed draws are Boost.Math's quantile, others within what the normal expansion leaves.
-Finding quantiles(GlintMethod method, int lanes) {
+Finding quantiles(const CheckContext& context, GlintMethod method) {
   std::mt19937 random(13);
   std::vector<float> u, n, p;
   for (const BinomialCase& c : binomialGrid())
@@ -60,7 +60,7 @@ Finding quantiles(GlintMethod method, int lanes) {
       n.push_back(static_cast<float>(std::floor(c.n)));
       p.push_back(static_cast<float>(c.p));
     }
-  const auto k = probeBinomial(u, n, p, method, lanes);
+  const auto k = probeBinomial(context.bench, u, n, p, method, context.lanes);
   const double summed_mean = method == GlintMethod::kExact ? 32 : 5;
   std::size_t summed = 0, different = 0;
   Finding finding(kFlippedDrawShare);
@@ -82,7 +82,7 @@ Finding quantiles(GlintMethod method, int lanes) {
   return finding;
 }
 
-Finding extremes(GlintMethod method, int lanes) {
+Finding extremes(const CheckContext& context, GlintMethod method) {
   std::vector<float> u, n, p;
   for (const float a : {0x1p-33f, 1e-9f, 1e-4f, 0.5f, 0.9999999f, 1.0f})
     for (const float b : {0.f, 1.f, 2.f, 17.f, 1e4f, 1e9f, 0x1p30f})
@@ -91,7 +91,7 @@ Finding extremes(GlintMethod method, int lanes) {
         n.push_back(b);
         p.push_back(c);
       }
-  const auto k = probeBinomial(u, n, p, method, lanes);
+  const auto k = probeBinomial(context.bench, u, n, p, method, context.lanes);
   double bad = 0;
   for (std::size_t i = 0; i < k.size(); ++i) {
     const bool in_range = k[i] >= 0 && k[i] <= n[i] && k[i] == std::floor(k[i]);
@@ -104,7 +104,7 @@ Finding extremes(GlintMethod method, int lanes) {
 
 // Beyond u = 1e-7 of P(K > 0), sums in single precision cannot resolve u any more; but they must
 // not answer with more than the smallest of all uniforms stands for.
-Finding deepTail(GlintMethod method, int lanes) {
+Finding deepTail(const CheckContext& context, GlintMethod method) {
   constexpr float kLeastUniform = 0x1p-33f;
   std::vector<float> u, n, p;
   std::mt19937 random(14);
@@ -116,7 +116,7 @@ Finding deepTail(GlintMethod method, int lanes) {
         n.push_back(count);
         p.push_back(mean / count);
       }
-  const auto k = probeBinomial(u, n, p, method, lanes);
+  const auto k = probeBinomial(context.bench, u, n, p, method, context.lanes);
   double fireflies = 0;
   for (std::size_t i = 0; i < k.size(); ++i)
     fireflies += k[i] > referenceDraw(kLeastUniform, n[i], p[i], method) + 1;
@@ -125,7 +125,7 @@ Finding deepTail(GlintMethod method, int lanes) {
   return finding;
 }
 
-Finding sameBits(GlintMethod method, int lanes) {
+Finding sameBits(const CheckContext& context, GlintMethod method) {
   std::mt19937 random(12);
   std::vector<float> u, n, p;
   for (const BinomialCase& c : binomialGrid())
@@ -134,7 +134,8 @@ Finding sameBits(GlintMethod method, int lanes) {
       n.push_back(binomialTrials(c, random));
       p.push_back(static_cast<float>(c.p));
     }
-  const auto one = probeBinomial(u, n, p, method, 1), wide = probeBinomial(u, n, p, method, lanes);
+  const auto one = probeBinomial(context.bench, u, n, p, method, 1),
+             wide = probeBinomial(context.bench, u, n, p, method, context.lanes);
   double different = 0;
   for (std::size_t i = 0; i < one.size(); ++i)
     different += std::bit_cast<std::uint32_t>(one[i]) != std::bit_cast<std::uint32_t>(wide[i]);
@@ -149,9 +150,11 @@ std::vector<Check> binomialChecks() {
   std::vector<Check> checks;
   for (const GlintMethod method : {GlintMethod::kZk16, GlintMethod::kExact}) {
     const std::string group = method == GlintMethod::kZk16 ? "binomial/zk16_" : "binomial/exact_";
-    const auto add = [&](const char* name, const char* measure, Finding (*run)(GlintMethod, int)) {
-      checks.push_back(
-          {group + name, measure, [run, method](int lanes) { return run(method, lanes); }});
+    const auto add = [&](const char* name, const char* measure,
+                         Finding (*run)(const CheckContext&, GlintMethod)) {
+      checks.push_back({group + name, measure, [run, method](const CheckContext& context) {
+                          return run(context, method);
+                        }});
     };
     add("moments", "standard errors of the mean", moments);
     add("quantile", "share of sums that differ from Boost.Math", quantiles);

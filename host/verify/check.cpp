@@ -36,13 +36,13 @@ std::string verdictName(Verdict verdict) {
   return "skipped";
 }
 
-CheckResult runCheck(const Check& check, int lanes) {
+CheckResult runCheck(const Check& check, const CheckContext& context) {
   CheckResult result;
   result.name = check.name;
   result.measure = check.measure;
   const Stopwatch watch;
   try {
-    const Finding finding = check.run(lanes);
+    const Finding finding = check.run(context);
     result.verdict = finding.isSkipped() ? Verdict::kSkipped
                      : finding.passes()  ? Verdict::kPass
                                          : Verdict::kFail;

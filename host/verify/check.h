@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "host/harness/kernel_bench.h"
+
 namespace glintmark {
 
 /// What a check found: the worst of its errors beside the most they may be.
@@ -33,13 +35,21 @@ class Finding {
   bool skipped_ = false;
 };
 
+/// What a check runs on: a device with its programs, and the lane count to check.
+struct CheckContext {
+  KernelBench& bench;
+  int lanes = 1;
+
+  CheckContext withLanes(int other_lanes) const { return {bench, other_lanes}; }
+};
+
 struct Check {
   std::string name;     // "group/property"
   std::string measure;  // what is measured, a few words
-  std::function<Finding(int lanes)> run;
+  std::function<Finding(const CheckContext&)> run;
 };
 
-/// Every check, in the order of the table. They run on KernelBench::shared().
+/// Every check, in the order of the table.
 std::vector<Check> allChecks();
 
 enum class Verdict { kPass, kFail, kSkipped };
@@ -55,6 +65,6 @@ struct CheckResult {
 };
 
 /// Runs one check; an Error that it throws is a failure with its message as the note.
-CheckResult runCheck(const Check& check, int lanes);
+CheckResult runCheck(const Check& check, const CheckContext& context);
 
 }  // namespace glintmark

@@ -12,21 +12,21 @@ namespace glintmark {
 namespace {
 
 template <std::size_t N>
-void addDifferences(Finding& finding, const char* kernel,
+void addDifferences(KernelBench& bench, Finding& finding, const char* kernel,
                     const std::array<std::uint32_t, N>& wanted) {
-  KernelBench& bench = KernelBench::shared();
   Buffer out(bench.device, N * 4, BufferPurpose::kProbe);
   const KernelArg args[] = {out};
-  bench.cache.getWithOptions("probes/probe.cl", "").kernel(kernel).launch(args, 1, 1);
+  probeKernel(bench, "probes/probe.cl", kernel, "").launch(args, 1, 1);
   std::array<std::uint32_t, N> values{};
   out.read(values.data(), N * 4);
   for (std::size_t i = 0; i < N; ++i)
     finding.add(std::abs(static_cast<double>(values[i]) - static_cast<double>(wanted[i])));
 }
 
-Finding structLayouts(int) {
+Finding structLayouts(const CheckContext& context) {
   Finding finding(0);
-  addDifferences<kSharedTypeSizes.size()>(finding, "probeTypeSizes", kSharedTypeSizes);
+  addDifferences<kSharedTypeSizes.size()>(context.bench, finding, "probeTypeSizes",
+                                          kSharedTypeSizes);
   constexpr std::array<std::uint32_t, 10> kOffsets = {
       offsetof(MaterialParams, glints.alpha_l),
       offsetof(MaterialParams, glints.density),
@@ -38,20 +38,19 @@ Finding structLayouts(int) {
       offsetof(LightParams, tap_count),
       offsetof(FrameParams, light_count),
       offsetof(FrameParams, plane_stride)};
-  addDifferences<kOffsets.size()>(finding, "probeTypeOffsets", kOffsets);
+  addDifferences<kOffsets.size()>(context.bench, finding, "probeTypeOffsets", kOffsets);
   return finding;
 }
 
 // Twelve chains of x = x / 2 + 1 / 2 end at exactly 1 each.
-Finding fusedMultiplyAdds(int lanes) {
-  KernelBench& bench = KernelBench::shared();
+Finding fusedMultiplyAdds(const CheckContext& context) {
   std::vector<float> values(64, 0.25f);
-  Buffer buffer(bench.device, values.size() * 4, BufferPurpose::kProbe);
+  Buffer buffer(context.bench.device, values.size() * 4, BufferPurpose::kProbe);
   buffer.write(values.data(), values.size() * 4);
   const KernelArg args[] = {buffer, std::uint32_t{200}, 0.5f, 0.5f};
-  bench.cache.getWithOptions("probes/probe.cl", "-D WIDTH=" + std::to_string(lanes))
-      .kernel("probeFma")
-      .launch(args, values.size() / static_cast<std::size_t>(lanes), 1);
+  probeKernel(context.bench, "probes/probe.cl", "probeFma",
+              "-D WIDTH=" + std::to_string(context.lanes))
+      .launch(args, values.size() / static_cast<std::size_t>(context.lanes), 1);
   buffer.read(values.data(), values.size() * 4);
   Finding finding(0);
   for (const float value : values) finding.add(std::abs(value - 12.0));

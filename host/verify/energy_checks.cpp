@@ -45,13 +45,14 @@ struct Moments {
 };
 
 // Of radiance relative to the smooth lobe, over pixels and channel `c`.
-Moments ratioMoments(const HandMadeFrame& frame, KernelConfig config, int c = 0) {
-  const ShadedPixels glints = shadePixels(frame, config);
+Moments ratioMoments(const CheckContext& context, const HandMadeFrame& frame, KernelConfig config,
+                     int c = 0) {
+  const ShadedPixels glints = shadePixels(context.bench, frame, config);
   KernelConfig smooth_config = config;
   smooth_config.glint = smooth_config.groove = smooth_config.glint_colour = false;
   HandMadeFrame one = frame;
   one.pixels.resize(1);
-  const double smooth = shadePixels(one, smooth_config).radiance[0][c];
+  const double smooth = shadePixels(context.bench, one, smooth_config).radiance[0][c];
   double sum = 0, squares = 0;
   for (const glm::vec3& radiance : glints.radiance) {
     const double ratio = radiance[c] / smooth;
@@ -81,9 +82,9 @@ constexpr GlintKind kKinds[] = {{"zk16", GlintMethod::kZk16, false, false},
                                 {"zk16_groove", GlintMethod::kZk16, true, false},
                                 {"zk16_colour", GlintMethod::kZk16, false, true}};
 
-KernelConfig configOf(const GlintKind& kind, int lanes, float variation) {
+KernelConfig configOf(const CheckContext& context, const GlintKind& kind, float variation) {
   KernelConfig c;
-  c.width = lanes;
+  c.width = context.lanes;
   c.method = kind.method;
   c.groove = kind.groove;
   c.glint_colour = kind.colour;
@@ -91,7 +92,7 @@ KernelConfig configOf(const GlintKind& kind, int lanes, float variation) {
   return c;
 }
 
-Finding meanForEverySizeVariation(const GlintKind& kind, int lanes) {
+Finding meanForEverySizeVariation(const CheckContext& context, const GlintKind& kind) {
   Finding finding(kEnergyTolerance);
   for (const float variation : {0.f, 1.f, 3.f, 10.f, 100.f})
     for (const double slope : {0.0, 0.3, 0.6}) {  // p from its peak down by e^-4
@@ -99,43 +100,43 @@ Finding meanForEverySizeVariation(const GlintKind& kind, int lanes) {
       // Cells of about 1e-5 uv^2: 1000 microdetails before variation.
       frame.material = simpleMaterial({0.3f, 0.3f}, {0.15f, 0.15f}, 1e8f, variation);
       frame.lights = {coneLight(lightForSlope(slope, 0.7))};
-      addMean(finding, ratioMoments(frame, configOf(kind, lanes, variation)));
+      addMean(finding, ratioMoments(context, frame, configOf(context, kind, variation)));
     }
   return finding;
 }
 
 // 0.3 microdetails per cell and less: N is 0 or 1 most of the time.
-Finding meanOfNearlyEmptyCells(const GlintKind& kind, int lanes) {
+Finding meanOfNearlyEmptyCells(const CheckContext& context, const GlintKind& kind) {
   Finding finding(kEnergyTolerance);
   HandMadeFrame frame = spreadPixels(1 << 18, 3e-3, 3);
   frame.material = simpleMaterial({0.3f, 0.3f}, {0.25f, 0.25f}, 3e4f, 0);
   frame.lights = {coneLight(lightForSlope(0.1, 0.3))};
-  addMean(finding, ratioMoments(frame, configOf(kind, lanes, 0)));
+  addMean(finding, ratioMoments(context, frame, configOf(context, kind, 0)));
   return finding;
 }
 
 // p about 1e-5, N about 1e6 per cell.
-Finding meanOfSmallProbabilities(const GlintKind& kind, int lanes) {
+Finding meanOfSmallProbabilities(const CheckContext& context, const GlintKind& kind) {
   Finding finding(kEnergyTolerance);
   HandMadeFrame frame = spreadPixels(1 << 16, 3e-3, 3);
   frame.material = simpleMaterial({0.3f, 0.3f}, {1e-3f, 1e-3f}, 1e11f, 1);
   frame.lights = {coneLight(lightForSlope(0.1, 0.3))};
-  addMean(finding, ratioMoments(frame, configOf(kind, lanes, 1)));
+  addMean(finding, ratioMoments(context, frame, configOf(context, kind, 1)));
   return finding;
 }
 
 // Stretched cells span many pixels, which are then no independent samples; the mean over fewer
 // cells keeps the same bound.
-Finding meanOfStretchedCells(const GlintKind& kind, int lanes) {
+Finding meanOfStretchedCells(const CheckContext& context, const GlintKind& kind) {
   Finding finding(kEnergyTolerance);
   HandMadeFrame frame = spreadPixels(1 << 16, 1e-3, 3);
   frame.material = simpleMaterial({0.5f, 0.1f}, {0.2f, 0.05f}, 1e7f, 1);
   frame.lights = {coneLight(lightForSlope(0.1, 1.3))};
-  addMean(finding, ratioMoments(frame, configOf(kind, lanes, 1)), false);
+  addMean(finding, ratioMoments(context, frame, configOf(context, kind, 1)), false);
   return finding;
 }
 
-Finding densityToInfinity(const GlintKind& kind, int lanes) {
+Finding densityToInfinity(const CheckContext& context, const GlintKind& kind) {
   Finding finding(kEnergyTolerance);
   double previous = std::numeric_limits<double>::max();
   for (const float density : {1e9f, 1e11f, 1e13f}) {
@@ -144,11 +145,11 @@ Finding densityToInfinity(const GlintKind& kind, int lanes) {
     frame.material = simpleMaterial({0.3f, 0.3f}, {0.2f, 0.2f}, density, 0);
     frame.lights = {coneLight({-0.3, 0.2, 0.9})};
     setRandomRays(frame);
-    const ShadedPixels glints = shadePixels(frame, configOf(kind, lanes, 0));
+    const ShadedPixels glints = shadePixels(context.bench, frame, configOf(context, kind, 0));
     KernelConfig smooth_config;
-    smooth_config.width = lanes;
+    smooth_config.width = context.lanes;
     smooth_config.glint = false;
-    const ShadedPixels smooth = shadePixels(frame, smooth_config);
+    const ShadedPixels smooth = shadePixels(context.bench, frame, smooth_config);
     double worst = 0;
     for (std::size_t i = 0; i < frame.pixels.size(); ++i) {
       // The lobe's far tail has few microdetails at any density.
@@ -163,7 +164,7 @@ Finding densityToInfinity(const GlintKind& kind, int lanes) {
 }
 
 // Each channel of a palette on average.
-Finding palette(int lanes) {
+Finding palette(const CheckContext& context) {
   HandMadeFrame frame = spreadPixels(1 << 16, 3e-3, 3);
   frame.material = simpleMaterial({0.3f, 0.3f}, {0.15f, 0.15f}, 1e7f, 0);
   frame.material.glints.palette_count = 3;
@@ -172,11 +173,12 @@ Finding palette(int lanes) {
   frame.material.glints.palette[2] = {0.2f, 0.3f, 0.7f, 0};
   frame.lights = {coneLight(lightForSlope(0.2, 0.3))};
   KernelConfig config;
-  config.width = lanes;
+  config.width = context.lanes;
   config.size_variation = false;
   config.glint_colour = true;
   Finding finding(kEnergyTolerance);
-  for (int c = 0; c < 3; ++c) finding.add(std::abs(ratioMoments(frame, config, c).mean / 0.4 - 1));
+  for (int c = 0; c < 3; ++c)
+    finding.add(std::abs(ratioMoments(context, frame, config, c).mean / 0.4 - 1));
   return finding;
 }
 
@@ -198,18 +200,18 @@ HandMadeFrame onePixel(const glm::dvec3& light, const glm::dvec3& view, double h
   return frame;
 }
 
-double kernelSmooth(const HandMadeFrame& frame, bool diffuse, int lanes) {
+double kernelSmooth(const CheckContext& context, const HandMadeFrame& frame, bool diffuse) {
   KernelConfig config;
-  config.width = lanes;
+  config.width = context.lanes;
   config.glint = config.size_variation = false;
   config.light_cone = true;
   config.diffuse = diffuse;
-  return shadePixels(frame, config).radiance[0].x;
+  return shadePixels(context.bench, frame, config).radiance[0].x;
 }
 
 // Error of the kernel's lobe relative to the brightest of that view.
-double coneError(const glm::dvec3& axis, double view_deg, double half_rad, const glm::dvec2& alpha,
-                 int lanes) {
+double coneError(const CheckContext& context, const glm::dvec3& axis, double view_deg,
+                 double half_rad, const glm::dvec2& alpha) {
   const glm::dvec3 view = direction(view_deg, 0);
   HandMadeFrame frame = onePixel(axis, view, half_rad);
   frame.material = simpleMaterial({static_cast<float>(alpha.x), static_cast<float>(alpha.y)},
@@ -219,17 +221,17 @@ double coneError(const glm::dvec3& axis, double view_deg, double half_rad, const
         .x;
   };
   const double want = brute_force(axis), brightest = brute_force(direction(view_deg, 180));
-  return std::abs(kernelSmooth(frame, false, lanes) - want) / std::max(brightest, want);
+  return std::abs(kernelSmooth(context, frame, false) - want) / std::max(brightest, want);
 }
 
-Finding coneLobe(double half_deg, int lanes) {
+Finding coneLobe(const CheckContext& context, double half_deg) {
   Finding finding(kWorstConeTolerance);
   for (const glm::dvec2& alpha : {glm::dvec2(0.1), glm::dvec2(0.3), glm::dvec2(0.5, 0.15)}) {
     double sum = 0, count = 0;
     for (const double view_deg : {0.0, 30.0, 60.0, 80.0})
       for (const double light_deg : {0.0, 20.0, 50.0, 75.0, 85.0, 95.0}) {
         const double error =
-            coneError(direction(light_deg, 160), view_deg, half_deg * kDegree, alpha, lanes);
+            coneError(context, direction(light_deg, 160), view_deg, half_deg * kDegree, alpha);
         finding.add(error);
         sum += error;
         ++count;
@@ -239,7 +241,7 @@ Finding coneLobe(double half_deg, int lanes) {
   return finding;
 }
 
-Finding coneDiffuse(double half_deg, int lanes) {
+Finding coneDiffuse(const CheckContext& context, double half_deg) {
   Finding finding(kConeDiffuseTolerance / std::numbers::pi);
   for (const double light_deg : {0.0, 40.0, 80.0, 95.0}) {
     const glm::dvec3 axis = direction(light_deg, 160);
@@ -248,16 +250,16 @@ Finding coneDiffuse(double half_deg, int lanes) {
     frame.material.surface.intensity = 0;
     frame.material.surface.albedo = {1, 1, 1, 0};
     const double want = reference::coneDiffuse({axis, half_deg * kDegree}, kConeSamples);
-    finding.add(std::abs(kernelSmooth(frame, true, lanes) - want));
+    finding.add(std::abs(kernelSmooth(context, frame, true) - want));
   }
   return finding;
 }
 
 // The mean over many pixels of glints is the smooth lobe for lights of every size.
-Finding coneGlints(double half_deg, int lanes) {
+Finding coneGlints(const CheckContext& context, double half_deg) {
   HandMadeFrame frame = onePixel(direction(40, 160), direction(20, 0), half_deg * kDegree);
   frame.material = simpleMaterial({0.3f, 0.3f}, {0.05f, 0.05f}, 1e7f, 1);
-  const double smooth = kernelSmooth(frame, false, lanes);
+  const double smooth = kernelSmooth(context, frame, false);
   const HandMadePixel prototype = frame.pixels[0];
   frame.pixels.clear();
   for (int i = 0; i < 1 << 16; ++i) {
@@ -271,11 +273,12 @@ Finding coneGlints(double half_deg, int lanes) {
   Finding finding(kEnergyTolerance);
   for (const GlintMethod method : {GlintMethod::kZk16, GlintMethod::kExact}) {
     KernelConfig config;
-    config.width = lanes;
+    config.width = context.lanes;
     config.light_cone = true;
     config.method = method;
     double sum = 0;
-    for (const glm::vec3& radiance : shadePixels(frame, config).radiance) sum += radiance.x;
+    for (const glm::vec3& radiance : shadePixels(context.bench, frame, config).radiance)
+      sum += radiance.x;
     finding.add(std::abs(sum / static_cast<double>(frame.pixels.size()) / smooth - 1));
   }
   return finding;
@@ -286,8 +289,9 @@ Finding coneGlints(double half_deg, int lanes) {
 std::vector<Check> energyChecks() {
   std::vector<Check> checks;
   const auto add = [&](const std::string& name, const char* measure, auto run, auto parameter) {
-    checks.push_back(
-        {name, measure, [run, parameter](int lanes) { return run(parameter, lanes); }});
+    checks.push_back({name, measure, [run, parameter](const CheckContext& context) {
+                        return run(context, parameter);
+                      }});
   };
   for (const GlintKind& kind : kKinds) {
     const std::string group = std::string("energy/") + kind.name;

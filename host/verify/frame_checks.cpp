@@ -12,10 +12,9 @@
 namespace glintmark {
 namespace {
 
-Image render(const Scene& scene, const View& view, const ShadingOptions& options,
-             std::shared_ptr<NormalTextures> textures = nullptr) {
-  FrameRenderer renderer(KernelBench::shared().device, scene, view, options, 1,
-                         std::move(textures));
+Image render(const CheckContext& context, const Scene& scene, const View& view,
+             const ShadingOptions& options, std::shared_ptr<NormalTextures> textures = nullptr) {
+  FrameRenderer renderer(context.bench.device, scene, view, options, 1, std::move(textures));
   renderer.prepare();
   renderer.shade();
   return renderer.readRadiance();
@@ -27,12 +26,12 @@ double insaneValues(const Image& image) {
 }
 
 // The floor lies out of sight.
-Finding emptyFrame(int lanes) {
+Finding emptyFrame(const CheckContext& context) {
   Scene scene = floorScene();
   scene.mesh = TriangleMesh{};
   addFloor(scene, 100, 101, 0);
-  const Image image =
-      render(scene, lookingDown(90), {.width_px = 64, .height_px = 48, .lanes = lanes});
+  const Image image = render(context, scene, lookingDown(90),
+                             {.width_px = 64, .height_px = 48, .lanes = context.lanes});
   Finding finding(0);
   finding.require(image.width == 64 && image.height == 48, "the picture has another size");
   for (const float value : image.pixels) finding.add(std::abs(value));
@@ -40,11 +39,12 @@ Finding emptyFrame(int lanes) {
 }
 
 // One pixel of glints is what the same pixel is in a frame of one row.
-Finding onePixel(int lanes) {
+Finding onePixel(const CheckContext& context) {
   const Scene scene = floorScene();
-  const Image image =
-      render(scene, lookingDown(45), {.width_px = 1, .height_px = 1, .lanes = lanes});
-  const Image narrow = render(scene, lookingDown(45), {.width_px = 1, .height_px = 1, .lanes = 1});
+  const Image image = render(context, scene, lookingDown(45),
+                             {.width_px = 1, .height_px = 1, .lanes = context.lanes});
+  const Image narrow =
+      render(context, scene, lookingDown(45), {.width_px = 1, .height_px = 1, .lanes = 1});
   Finding finding(0);
   finding.add(insaneValues(image));
   finding.require(image.pixels.size() == 4 && image.pixels[3] == 1, "the pixel is not covered");
@@ -75,18 +75,18 @@ constexpr NamedMethod kMethods[] = {
     {"fournier", NormalMethod::kFournier}, {"gmm", NormalMethod::kGmm}};
 
 // Near and far, at 8 degrees: every value is a radiance, and one lane gives the same bits.
-Finding mappedNormals(NormalMethod method, int lanes) {
+Finding mappedNormals(const CheckContext& context, NormalMethod method) {
   double bad = 0, different = 0;
   for (const NormalMap& map : hardMaps()) {
     const Scene scene = mappedFloor(map);
-    const auto textures = std::make_shared<NormalTextures>(KernelBench::shared().device);
+    const auto textures = std::make_shared<NormalTextures>(context.bench.device);
     for (const double distance : {0.5, 6.0}) {
       const View view = lookingDown(8, distance);
-      ShadingOptions options{.width_px = 48, .height_px = 48, .lanes = lanes};
+      ShadingOptions options{.width_px = 48, .height_px = 48, .lanes = context.lanes};
       options.normal_method = method;
-      const Image wide = render(scene, view, options, textures);
+      const Image wide = render(context, scene, view, options, textures);
       options.lanes = 1;
-      const Image one = render(scene, view, options, textures);
+      const Image one = render(context, scene, view, options, textures);
       bad += insaneValues(wide);
       for (std::size_t i = 0; i < wide.pixels.size(); ++i)
         different += wide.pixels[i] != one.pixels[i];
@@ -105,8 +105,9 @@ std::vector<Check> frameChecks() {
                                {"frame/one_pixel", "values NaN, infinite or negative", onePixel}};
   for (const NamedMethod& m : kMethods)
     checks.push_back({std::string("normal_map/") + m.name + "_same_bits",
-                      "values no radiance, or not one lane's",
-                      [&m](int lanes) { return mappedNormals(m.method, lanes); }});
+                      "values no radiance, or not one lane's", [&m](const CheckContext& context) {
+                        return mappedNormals(context, m.method);
+                      }});
   return checks;
 }
 

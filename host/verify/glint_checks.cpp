@@ -56,31 +56,32 @@ HandMadeFrame drawFrame(const DrawCase& c) {
   return frame;
 }
 
-ShadedPixels drawPixels(const DrawCase& c, const HandMadeFrame& frame, int lanes) {
+ShadedPixels drawPixels(const CheckContext& context, const DrawCase& c,
+                        const HandMadeFrame& frame) {
   KernelConfig config;
-  config.width = lanes;
+  config.width = context.lanes;
   config.method = c.method;
   config.ka = c.ka;
   config.groove = c.groove;
   config.size_variation = c.size_variation > 0;
   config.count_cells = true;
-  return shadePixels(frame, config);
+  return shadePixels(context.bench, frame, config);
 }
 
 // Pixel by pixel: the same cells, the same draws, the same radiance relative to the smooth lobe, so
 // that the approximations in the lobe stay out of it.
-Finding drawForDraw(const DrawCase& c, int lanes) {
+Finding drawForDraw(const CheckContext& context, const DrawCase& c) {
   const HandMadeFrame frame = drawFrame(c);
-  const ShadedPixels shaded = drawPixels(c, frame, lanes);
+  const ShadedPixels shaded = drawPixels(context, c, frame);
   KernelConfig smooth_config;
-  smooth_config.width = lanes;
+  smooth_config.width = context.lanes;
   smooth_config.glint = false;
-  const ShadedPixels smooth = shadePixels(frame, smooth_config);
+  const ShadedPixels smooth = shadePixels(context.bench, frame, smooth_config);
   const std::vector<reference::PointLight> lights = referenceLights(frame);
   reference::GlintMethodOptions options;
   options.exact = c.method == kExact;
   options.ka = c.ka;
-  options.stretch = deviceStretch(frame.material);
+  options.stretch = deviceStretch(context.bench, frame.material);
 
   Finding finding(kFlippedPixelShare);
   double different_counts = 0, flipped = 0, sum = 0, sum_reference = 0;
@@ -112,14 +113,14 @@ Finding drawForDraw(const DrawCase& c, int lanes) {
 }
 
 // [ZK16] Sect. 5: from 8 to 64 cells at K_a = 16. Footprints up to beyond the limit, of any size.
-Finding cellRange(int lanes) {
+Finding cellRange(const CheckContext& context) {
   const DrawCase c = {"", kZk16, {.3f, .3f}, {.05f, .05f}, 1e6f, 0, false, 16, {1e-5, 1, 200}};
   HandMadeFrame frame = drawFrame(c);
   frame.pixels = randomPixels(20000, c.footprints);
   for (HandMadePixel& pixel : frame.pixels) pixel.frame = flatFrame();
   frame.ray_origin = {0, 0, -1};
   frame.ray_dx = frame.ray_dy = glm::dvec3(0);
-  const ShadedPixels shaded = drawPixels(c, frame, lanes);
+  const ShadedPixels shaded = drawPixels(context, c, frame);
   Finding finding(0);
   double outside = 0;
   for (const std::uint32_t cells : shaded.cells)
@@ -132,7 +133,7 @@ Finding cellRange(int lanes) {
 
 // The grids that footprints of any size and shape meet: log2 of the cell size, which the finer
 // level and the coarser grid's weight add up to, and the stretched box.
-Finding footprintLevels(int lanes) {
+Finding footprintLevels(const CheckContext& context) {
   Finding finding(1);
   const glm::dvec2 stretch(0.25, 1);
   std::vector<reference::PixelFootprint> footprints;
@@ -142,7 +143,8 @@ Finding footprintLevels(int lanes) {
       *d = glm::dvec2(glm::vec2(*d));  // the planes hold floats
   }
   for (const int ka : {1, 16, 64}) {
-    const FootprintProbe probed = probeFootprints(footprints, stretch, kZk16, ka, lanes);
+    const FootprintProbe probed =
+        probeFootprints(context.bench, footprints, stretch, kZk16, ka, context.lanes);
     for (std::size_t i = 0; i < footprints.size(); ++i) {
       const reference::PixelFootprint& f = footprints[i];
       finding.add(std::abs(probed.fine_level[i] + probed.coarse_weight[i] -
@@ -167,7 +169,7 @@ constexpr WidthCase kWidthCases[] = {{"zk16", kZk16, false, false, false},
                                      {"zk16_groove_colour_cone", kZk16, true, true, true},
                                      {"exact", kExact, false, false, false}};
 
-Finding sameBits(const WidthCase& c, int lanes) {
+Finding sameBits(const CheckContext& context, const WidthCase& c) {
   HandMadeFrame frame;
   frame.pixels = randomPixels(1003, {1e-4, 1e-2, 24});
   frame.material = simpleMaterial({0.3f, 0.2f}, {0.05f, 0.04f}, 1e6f, 1);
@@ -181,9 +183,9 @@ Finding sameBits(const WidthCase& c, int lanes) {
   config.glint_colour = c.colour;
   config.light_cone = c.cone;
   config.count_cells = true;
-  const ShadedPixels one = shadePixels(frame, config);
-  config.width = lanes;
-  const ShadedPixels wide = shadePixels(frame, config);
+  const ShadedPixels one = shadePixels(context.bench, frame, config);
+  config.width = context.lanes;
+  const ShadedPixels wide = shadePixels(context.bench, frame, config);
   double different = 0;
   for (std::size_t i = 0; i < one.cells.size(); ++i)
     different += one.cells[i] != wide.cells[i] || one.limited[i] != wide.limited[i] ||
@@ -199,13 +201,13 @@ std::vector<Check> glintChecks() {
   std::vector<Check> checks;
   for (const DrawCase& c : kDrawCases)
     checks.push_back({std::string("draws/") + c.name, "share of pixels with other draws",
-                      [&c](int lanes) { return drawForDraw(c, lanes); }});
+                      [&c](const CheckContext& context) { return drawForDraw(context, c); }});
   checks.push_back({"cells/footprint", "error in units of its bound", footprintLevels});
   checks.push_back({"cells/zk16_range", "pixels outside 8 to 64 cells", cellRange});
   for (const WidthCase& c : kWidthCases)
     checks.push_back({std::string("cells/same_bits_") + c.name,
                       "pixels that differ from one lane's",
-                      [&c](int lanes) { return sameBits(c, lanes); }});
+                      [&c](const CheckContext& context) { return sameBits(context, c); }});
   return checks;
 }
 

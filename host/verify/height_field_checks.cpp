@@ -13,9 +13,8 @@
 namespace glintmark {
 namespace {
 
-Simulation simulate(const SimulationSettings& settings, int lanes) {
-  KernelBench& bench = KernelBench::shared();
-  return Simulator(bench.device, bench.cache, lanes).run(settings);
+Simulation simulate(const CheckContext& context, const SimulationSettings& settings) {
+  return Simulator(context.bench.device, context.bench.cache, context.lanes).run(settings);
 }
 
 // What left, was absorbed, was left over or given up is every ray, once.
@@ -25,7 +24,7 @@ void addBalance(Finding& finding, const Simulation& simulation) {
   finding.require(simulation.gaveUp() == 0, fmt::format("{} rays gave up", simulation.gaveUp()));
 }
 
-Finding balance(int lanes) {
+Finding balance(const CheckContext& context) {
   Finding finding(0);
   for (const SurfaceKind kind :
        {SurfaceKind::kDiffuse, SurfaceKind::kMetal, SurfaceKind::kDielectric}) {
@@ -33,7 +32,7 @@ Finding balance(int lanes) {
     s.kind = kind;
     s.index_k = 2;
     s.rays = 50001;
-    const Simulation simulation = simulate(s, lanes);
+    const Simulation simulation = simulate(context, s);
     addBalance(finding, simulation);
     finding.require((simulation.absorbed() > 0) == (kind == SurfaceKind::kMetal),
                     "metals absorb, and nothing else does");
@@ -47,7 +46,7 @@ Finding balance(int lanes) {
 
 // Smooth to rough and steep to grazing, every kind of surface; flat ones send everything back,
 // black ones nothing.
-Finding extremes(int lanes) {
+Finding extremes(const CheckContext& context) {
   Finding finding(0);
   for (const SurfaceKind kind :
        {SurfaceKind::kDiffuse, SurfaceKind::kMetal, SurfaceKind::kDielectric})
@@ -60,7 +59,7 @@ Finding extremes(int lanes) {
         s.index_k = 3;
         s.orders = HF_MAX_ORDERS;
         s.rays = 5000;
-        const Simulation simulation = simulate(s, lanes);
+        const Simulation simulation = simulate(context, s);
         finding.add(std::abs(simulation.balance() - 1));
         finding.require(simulation.rays_done == s.rays, "rays are missing");
         finding.require(simulation.gaveUp() <= (kind == SurfaceKind::kDiffuse ? 0u : 1u),
@@ -73,10 +72,10 @@ Finding extremes(int lanes) {
   return finding;
 }
 
-Finding sameBits(int lanes) {
+Finding sameBits(const CheckContext& context) {
   SimulationSettings s;
   s.rays = 20000;
-  const Simulation one = simulate(s, 1), wide = simulate(s, lanes);
+  const Simulation one = simulate(context.withLanes(1), s), wide = simulate(context, s);
   double different = 0;
   for (std::size_t i = 0; i < one.histogram.size(); ++i)
     different += one.histogram[i] != wide.histogram[i];
@@ -85,11 +84,10 @@ Finding sameBits(int lanes) {
   return finding;
 }
 
-Finding slopes(int) {
-  KernelBench& bench = KernelBench::shared();
+Finding slopes(const CheckContext& context) {
   Finding finding(kSlopeVariance);
   for (const double length : {1.5, 3.0, 6.0}) {
-    SurfaceMaker maker(bench.device, bench.cache, length);
+    SurfaceMaker maker(context.bench.device, context.bench.cache, length);
     maker.draw(7);
     const SlopeMoments m = slopeMoments(maker.readCounts(), maker.countHeight());
     finding.add(std::abs(m.variance_x - 0.5));
@@ -128,12 +126,13 @@ double smithSingleEnergy(double alpha, double incidence_deg) {
   return sum * std::pow(2 * reach / kSteps, 2);
 }
 
-Finding singleScattering(int lanes) {
+Finding singleScattering(const CheckContext& context) {
   Finding finding(kSmithTolerance);
   for (const double alpha : {0.2, 0.5, 0.8})
     for (const double incidence_deg : {0.0, 45.0, 75.0})
-      finding.add(std::abs(orderEnergy(simulate(mirror(alpha, incidence_deg, 1 << 18), lanes), 1) -
-                           smithSingleEnergy(alpha, incidence_deg)));
+      finding.add(
+          std::abs(orderEnergy(simulate(context, mirror(alpha, incidence_deg, 1 << 18)), 1) -
+                   smithSingleEnergy(alpha, incidence_deg)));
   return finding;
 }
 

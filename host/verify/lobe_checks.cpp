@@ -23,9 +23,10 @@ struct ProbedLobe {
   float weight, mean_x, mean_y, variance, specular, cosine;
 };
 
-std::vector<ProbedLobe> probe(const std::vector<LobeCase>& cases, float alpha, int lanes) {
-  Device& device = KernelBench::shared().device;
-  const std::size_t n = (cases.size() + 15) / 16 * 16;
+std::vector<ProbedLobe> probe(const CheckContext& context, const std::vector<LobeCase>& cases,
+                              float alpha) {
+  Device& device = context.bench.device;
+  const std::size_t n = paddedCount(cases.size());
   std::vector<float> in(10 * n), out(6 * n);
   for (std::size_t i = 0; i < n; ++i) {
     const LobeCase& c = cases[std::min(i, cases.size() - 1)];
@@ -37,9 +38,9 @@ std::vector<ProbedLobe> probe(const std::vector<LobeCase>& cases, float alpha, i
       output(device, out.size() * 4, BufferPurpose::kProbe, "shaded lobes");
   input.write(in.data(), in.size() * 4);
   const std::vector<KernelArg> args = {input, output, static_cast<std::uint32_t>(n), alpha};
-  probeKernel("probes/probe_lobe.cl", "probeLobe",
-              fmt::format("-D WIDTH={} -D DIFFUSE=1 -D NORMAL_MAP=1 -D LOBES=1", lanes))
-      .launch(args, n / static_cast<std::size_t>(lanes), 16);
+  probeKernel(context.bench, "probes/probe_lobe.cl", "probeLobe",
+              fmt::format("-D WIDTH={} -D DIFFUSE=1 -D NORMAL_MAP=1 -D LOBES=1", context.lanes))
+      .launch(args, n / static_cast<std::size_t>(context.lanes), kLocalSize);
   output.read(out.data(), out.size() * 4);
   std::vector<ProbedLobe> result;
   for (std::size_t i = 0; i < cases.size(); ++i)
@@ -72,11 +73,11 @@ std::vector<LobeCase> randomCases(std::size_t n) {
 }
 
 // Every quantity in units of its own bound.
-Finding matchesReference(int lanes) {
+Finding matchesReference(const CheckContext& context) {
   const std::vector<LobeCase> cases = randomCases(2000);
   Finding finding(1);
   for (const float alpha : {0.05f, 0.25f, 0.8f}) {
-    const auto probed = probe(cases, alpha, lanes);
+    const auto probed = probe(context, cases, alpha);
     for (std::size_t i = 0; i < cases.size(); ++i) {
       const ProbedLobe& p = probed[i];
       const reference::NormalLobe lobe = reference::lobeFromMoments(glm::dvec4(cases[i].moments));
@@ -97,9 +98,9 @@ Finding matchesReference(int lanes) {
   return finding;
 }
 
-Finding sameBits(int lanes) {
+Finding sameBits(const CheckContext& context) {
   const std::vector<LobeCase> cases = randomCases(300);
-  const auto one = probe(cases, 0.2f, 1), wide = probe(cases, 0.2f, lanes);
+  const auto one = probe(context.withLanes(1), cases, 0.2f), wide = probe(context, cases, 0.2f);
   const auto differ = [](float a, float b) {
     return std::bit_cast<std::uint32_t>(a) != std::bit_cast<std::uint32_t>(b);
   };
@@ -113,7 +114,7 @@ Finding sameBits(int lanes) {
 
 // Weight 0, variance 0 and 1, means on the horizon and beyond, moments that no distribution has;
 // light and view straight up, grazing and below.
-Finding hardLobes(int lanes) {
+Finding hardLobes(const CheckContext& context) {
   std::vector<LobeCase> cases;
   const glm::vec3 up(0, 0, 1), grazing = glm::normalize(glm::vec3(1, 0, 1e-4f));
   const glm::vec3 below = glm::normalize(glm::vec3(0, 1, -0.3f));
@@ -126,7 +127,7 @@ Finding hardLobes(int lanes) {
         cases.push_back({moments, light, view});
   double bad = 0;
   for (const float alpha : {1e-3f, 0.2f, 1.0f})
-    for (const ProbedLobe& lobe : probe(cases, alpha, lanes))
+    for (const ProbedLobe& lobe : probe(context, cases, alpha))
       for (const float value : {lobe.weight, lobe.variance, lobe.specular, lobe.cosine})
         bad += !(std::isfinite(value) && value >= 0);
   Finding finding(0);
@@ -140,20 +141,21 @@ struct Mixture {
   glm::vec4 lobes[4];  // weight, mean x, mean y, variance
 };
 
-Mixture probeMixture(const std::vector<glm::vec4>& moments, float alpha, int width) {
-  const auto lanes = static_cast<std::size_t>(width);
+Mixture probeMixture(const CheckContext& context, const std::vector<glm::vec4>& moments,
+                     float alpha) {
+  const auto lanes = static_cast<std::size_t>(context.lanes);
   std::vector<float> in(16 * lanes), out(17 * lanes);
   for (std::size_t k = 0; k < 4; ++k)
     for (std::size_t c = 0; c < 4; ++c)
       for (std::size_t lane = 0; lane < lanes; ++lane)
         in[(4 * k + c) * lanes + lane] = moments[k][static_cast<int>(c)];
-  Device& device = KernelBench::shared().device;
+  Device& device = context.bench.device;
   Buffer input(device, in.size() * 4, BufferPurpose::kProbe, "moments"),
       output(device, out.size() * 4, BufferPurpose::kProbe, "a mixture");
   input.write(in.data(), in.size() * 4);
   const std::vector<KernelArg> args = {input, output, static_cast<std::uint32_t>(lanes), alpha};
-  probeKernel("probes/probe_lobe.cl", "probeMixture",
-              fmt::format("-D WIDTH={} -D DIFFUSE=1 -D NORMAL_MAP=1 -D LOBES=4", width))
+  probeKernel(context.bench, "probes/probe_lobe.cl", "probeMixture",
+              fmt::format("-D WIDTH={} -D DIFFUSE=1 -D NORMAL_MAP=1 -D LOBES=4", lanes))
       .launch(args, 1, 1);
   output.read(out.data(), out.size() * 4);
   Mixture mixture;
@@ -166,7 +168,7 @@ Mixture probeMixture(const std::vector<glm::vec4>& moments, float alpha, int wid
 
 // Four lobes that a base lobe of roughness 0.25 hides from each other become one of the same mean
 // and variance; a smooth base lobe shows them apart. Quantities in units of their own bounds.
-Finding closeLobesMerge(int lanes) {
+Finding closeLobesMerge(const CheckContext& context) {
   const glm::vec2 means[] = {{0.11f, 0.2f}, {0.1f, 0.21f}, {0.09f, 0.19f}, {0.1f, 0.2f}};
   const float weights[] = {0.4f, 0.3f, 0.2f, 0.1f}, variances[] = {1e-4f, 0, 2e-4f, 1e-4f};
   std::vector<glm::vec4> moments;
@@ -175,7 +177,7 @@ Finding closeLobesMerge(int lanes) {
     moments.push_back(momentsOf(weights[i], means[i], variances[i]));
     sum += glm::dvec4(moments.back());
   }
-  const Mixture merged = probeMixture(moments, 0.25f, lanes);
+  const Mixture merged = probeMixture(context, moments, 0.25f);
   const reference::NormalLobe pooled = reference::lobeFromMoments(sum);
   Finding finding(1);
   finding.require(merged.used == 1, "close lobes are still several");
@@ -183,21 +185,22 @@ Finding closeLobesMerge(int lanes) {
   finding.add(std::abs(merged.lobes[0][1] - pooled.mean.x) / kLobeMean);
   finding.add(std::abs(merged.lobes[0][2] - pooled.mean.y) / kLobeMean);
   finding.add(std::abs(merged.lobes[0][3] - pooled.variance) / kLobeVariance);
-  finding.require(probeMixture(moments, 0.02f, lanes).used == 4,
+  finding.require(probeMixture(context, moments, 0.02f).used == 4,
                   "lobes that a smooth base lobe shows apart became fewer");
   return finding;
 }
 
-Finding weightlessLobesGoLast(int lanes) {
-  const Mixture packed = probeMixture({momentsOf(0, {0, 0}, 0), momentsOf(0.7f, {0.5f, 0}, 0.01f),
+Finding weightlessLobesGoLast(const CheckContext& context) {
+  const Mixture packed = probeMixture(context,
+                                      {momentsOf(0, {0, 0}, 0), momentsOf(0.7f, {0.5f, 0}, 0.01f),
                                        momentsOf(0, {0, 0}, 0), momentsOf(0.3f, {-0.5f, 0.1f}, 0)},
-                                      0.1f, lanes);
+                                      0.1f);
   Finding finding(1);
   finding.require(packed.used == 2, "two of four lobes have weight");
   finding.add(std::abs(packed.lobes[0][0] - 0.7f) / kLobeWeight);
   finding.add(std::abs(packed.lobes[1][0] - 0.3f) / kLobeWeight);
   finding.add(std::abs(packed.lobes[1][1] + 0.5f) / kLobeMean);
-  finding.require(probeMixture(std::vector<glm::vec4>(4, glm::vec4(0)), 0.1f, lanes).used == 1,
+  finding.require(probeMixture(context, std::vector<glm::vec4>(4, glm::vec4(0)), 0.1f).used == 1,
                   "no lobe of weight is shaded as one");
   return finding;
 }

@@ -28,9 +28,9 @@ std::vector<float> range(double low, double high, bool logarithmic) {
 
 using ErrorOf = std::function<double(double x, double y)>;
 
-void addErrors(Finding& finding, MathFunction function, const std::vector<float>& x, int lanes,
-               const ErrorOf& error) {
-  const std::vector<float> y = probeMath(function, x, lanes);
+void addErrors(const CheckContext& context, Finding& finding, MathFunction function,
+               const std::vector<float>& x, const ErrorOf& error) {
+  const std::vector<float> y = probeMath(context.bench, function, x, context.lanes);
   for (std::size_t i = 0; i < x.size(); ++i) finding.add(error(x[i], y[i]));
 }
 
@@ -38,55 +38,55 @@ double relative(double got, double want) {
   return std::abs(got - want) / std::abs(want);
 }
 
-Finding exp2Error(int lanes) {
+Finding exp2Error(const CheckContext& context) {
   Finding finding(kExp2Error);
-  addErrors(finding, MathFunction::kExp2, range(-125.5, 126, false), lanes,
+  addErrors(context, finding, MathFunction::kExp2, range(-125.5, 126, false),
             [](double x, double y) { return relative(y, std::exp2(x)); });
   return finding;
 }
 
-Finding exp2FromBelow(int lanes) {
+Finding exp2FromBelow(const CheckContext& context) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   Finding finding(0);
-  addErrors(finding, MathFunction::kExp2, {-127.f, -1e4f, -1e30f, -kInfinity}, lanes,
+  addErrors(context, finding, MathFunction::kExp2, {-127.f, -1e4f, -1e30f, -kInfinity},
             [](double, double y) { return std::abs(y - std::exp2(-126.)); });
   return finding;
 }
 
-Finding log2Error(int lanes) {
+Finding log2Error(const CheckContext& context) {
   Finding finding(kLog2Error);
   const auto error = [](double x, double y) {
     const double want = std::log2(x), half_ulp = std::abs(want) * 0x1p-24;
     return std::abs(y - want) - half_ulp;
   };
-  addErrors(finding, MathFunction::kLog2, range(1.2e-38, 3e38, true), lanes, error);
-  addErrors(finding, MathFunction::kLog2, range(0.7, 1.6, false), lanes, error);  // through 0
+  addErrors(context, finding, MathFunction::kLog2, range(1.2e-38, 3e38, true), error);
+  addErrors(context, finding, MathFunction::kLog2, range(0.7, 1.6, false), error);  // through 0
   return finding;
 }
 
-Finding reciprocalError(int lanes) {
+Finding reciprocalError(const CheckContext& context) {
   Finding finding(kReciprocalError);
   for (const auto& x : {range(1e-37, 1e37, true), range(-2, -1, false)})
-    addErrors(finding, MathFunction::kReciprocal, x, lanes,
+    addErrors(context, finding, MathFunction::kReciprocal, x,
               [](double a, double y) { return relative(y, 1 / a); });
   return finding;
 }
 
-Finding rsqrtError(int lanes) {
+Finding rsqrtError(const CheckContext& context) {
   Finding finding(kRsqrtError);
-  addErrors(finding, MathFunction::kRsqrt, range(1e-37, 1e37, true), lanes,
+  addErrors(context, finding, MathFunction::kRsqrt, range(1e-37, 1e37, true),
             [](double x, double y) { return relative(y, 1 / std::sqrt(x)); });
   return finding;
 }
 
-Finding quantileError(int lanes) {
+Finding quantileError(const CheckContext& context) {
   const boost::math::normal normal;
   Finding finding(kQuantileError);
   // z goes through 0 at u = 1/2, where 1 - 2u is exact but its relative error is not meaningful
   // below half an ulp of u.
   for (const auto& u :
        {range(1.2e-10, 0.5, true), range(0.4, 0.6, false), range(0.5, 0.999999, false)})
-    addErrors(finding, MathFunction::kNormalUpperQuantile, u, lanes, [&](double x, double z) {
+    addErrors(context, finding, MathFunction::kNormalUpperQuantile, u, [&](double x, double z) {
       const double want = quantile(complement(normal, x));
       return std::abs(z - want) / std::max(std::abs(want), 1e-6);
     });
@@ -94,14 +94,14 @@ Finding quantileError(int lanes) {
 }
 
 // U(0) and the largest value that U takes: it rounds to 1.
-Finding quantileEnds(int lanes) {
+Finding quantileEnds(const CheckContext& context) {
   Finding finding(0);
-  addErrors(finding, MathFunction::kNormalUpperQuantile, {0x1p-33f, 1.0f, 0.5f}, lanes,
+  addErrors(context, finding, MathFunction::kNormalUpperQuantile, {0x1p-33f, 1.0f, 0.5f},
             [](double, double z) { return std::isfinite(z) ? 0 : 1; });
   return finding;
 }
 
-Finding sameBits(int lanes) {
+Finding sameBits(const CheckContext& context) {
   const std::pair<MathFunction, std::vector<float>> cases[] = {
       {MathFunction::kExp2, range(-130, 126, false)},
       {MathFunction::kLog2, range(1.2e-38, 3e38, true)},
@@ -110,7 +110,8 @@ Finding sameBits(int lanes) {
       {MathFunction::kNormalUpperQuantile, range(1.2e-10, 1, true)}};
   Finding finding(0);
   for (const auto& [function, x] : cases) {
-    const auto one = probeMath(function, x, 1), wide = probeMath(function, x, lanes);
+    const auto one = probeMath(context.bench, function, x, 1),
+               wide = probeMath(context.bench, function, x, context.lanes);
     double different = 0;
     for (std::size_t i = 0; i < x.size(); ++i)
       different += std::bit_cast<std::uint32_t>(one[i]) != std::bit_cast<std::uint32_t>(wide[i]);

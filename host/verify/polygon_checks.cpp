@@ -15,27 +15,31 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-double lightAtOrigin(const AreaLight& light, bool specular, int lanes) {
-  return lightPoints(identityProbe(light, specular, lanes), {HandMadePoint{}})[0].x;
+double lightAtOrigin(const CheckContext& context, const AreaLight& light, bool specular) {
+  return lightPoints(context.bench, identityProbe(light, specular, context.lanes),
+                     {HandMadePoint{}})[0]
+      .x;
 }
 
 // The identity transform is the cosine itself, so its integral is the form factor.
-Finding formFactor(int corners, int lanes) {
+Finding formFactor(const CheckContext& context, int corners) {
   const AreaLight light = regularPolygon(corners, true);
   const std::vector<HandMadePoint> points = randomPoints(2048, 1.5, 1);
   Finding finding(kFormFactorTolerance);
   for (const bool specular : {false, true}) {
-    const auto values = lightPoints(identityProbe(light, specular, lanes), points);
+    const auto values =
+        lightPoints(context.bench, identityProbe(light, specular, context.lanes), points);
     for (std::size_t i = 0; i < points.size(); ++i)
       finding.add(std::abs(values[i].x - exactFormFactor(light, points[i])));
   }
   return finding;
 }
 
-Finding oneSided(int lanes) {
+Finding oneSided(const CheckContext& context) {
   const AreaLight light = regularPolygon(4, false);
   const std::vector<HandMadePoint> points = randomPoints(2048, 1.5, 2);
-  const auto values = lightPoints(identityProbe(light, false, lanes), points);
+  const auto values =
+      lightPoints(context.bench, identityProbe(light, false, context.lanes), points);
   Finding finding(kFormFactorTolerance);
   int lit = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -50,13 +54,13 @@ Finding oneSided(int lanes) {
 
 // A point below a corner of a parallel rectangle of sides a and b at distance 1: the textbook's
 // closed form (Howell, configuration B-3).
-Finding parallelCorner(int lanes) {
+Finding parallelCorner(const CheckContext& context) {
   Finding finding(kFormFactorTolerance);
   for (const auto& [a, b] : {std::pair{1.0, 1.0}, {0.1, 3.0}, {20.0, 0.5}, {100.0, 100.0}}) {
     const double ra = std::sqrt(1 + a * a), rb = std::sqrt(1 + b * b);
     const double exact = (a / ra * std::atan(b / ra) + b / rb * std::atan(a / rb)) / (2 * kPi);
     finding.add(std::abs(
-        lightAtOrigin(polygonLight(parallelRectangle(a / 2, b / 2, 1, a, b)), false, lanes) -
+        lightAtOrigin(context, polygonLight(parallelRectangle(a / 2, b / 2, 1, a, b)), false) -
         exact));
   }
   return finding;
@@ -64,7 +68,7 @@ Finding parallelCorner(int lanes) {
 
 // A rectangle that stands on the receiver's plane at distance c, from its foot's corner: Howell's
 // configuration B-5. Its lower edge lies exactly on the horizon.
-Finding standing(int lanes) {
+Finding standing(const CheckContext& context) {
   Finding finding(kFormFactorTolerance);
   for (const auto& [width, height, distance] :
        {std::tuple{1.0, 1.0, 1.0}, {2.0, 0.3, 0.1}, {0.5, 10.0, 3.0}}) {
@@ -73,44 +77,45 @@ Finding standing(int lanes) {
     const AreaLight light = polygonLight(
         {{0, distance, 0}, {0, distance, height}, {width, distance, height}, {width, distance, 0}},
         true);
-    finding.add(std::abs(lightAtOrigin(light, false, lanes) - exact));
+    finding.add(std::abs(lightAtOrigin(context, light, false) - exact));
   }
   return finding;
 }
 
 // 2 pi steradians reflect everything.
-Finding hemisphere(int lanes) {
+Finding hemisphere(const CheckContext& context) {
   const AreaLight light = polygonLight(parallelRectangle(0, 0, 1, 2e5, 2e5));
   Finding finding(kFormFactorTolerance);
   for (const bool specular : {false, true})
-    finding.add(std::abs(lightAtOrigin(light, specular, lanes) - 1));
+    finding.add(std::abs(lightAtOrigin(context, light, specular) - 1));
   return finding;
 }
 
-Finding solidAngles(double least, double most, double bound, int lanes) {
+Finding solidAngles(const CheckContext& context, double least, double most, double bound) {
   Finding finding(bound);
   HandMadePoint point;
   point.position = {0.3, -0.2, 0};
   for (double omega = least; omega < most; omega *= 4) {
     const double side = std::sqrt(omega);
     const AreaLight light = polygonLight(parallelRectangle(0.5, 0.4, 1, side, side));
-    const double value = lightPoints(identityProbe(light, false, lanes), {point})[0].x;
+    const double value =
+        lightPoints(context.bench, identityProbe(light, false, context.lanes), {point})[0].x;
     finding.add(std::abs(value / exactFormFactor(light, point) - 1));
   }
   return finding;
 }
 
-Finding sameBits(int lanes) {
-  AreaLightProbe probe = identityProbe(regularPolygon(4, true), true, lanes);
+Finding sameBits(const CheckContext& context) {
+  AreaLightProbe probe = identityProbe(regularPolygon(4, true), true, context.lanes);
   probe.lights.push_back(polygonLight(parallelRectangle(1, 1, 0.5, 2, 1)));
   const std::vector<HandMadePoint> points = randomPoints(777, 1.5, 3);
   Finding finding(0);
   for (const bool clipless : {false, true}) {
     probe.clipless = clipless;
-    probe.width = lanes;
-    const auto wide = lightPoints(probe, points);
+    probe.width = context.lanes;
+    const auto wide = lightPoints(context.bench, probe, points);
     probe.width = 1;
-    const auto one = lightPoints(probe, points);
+    const auto one = lightPoints(context.bench, probe, points);
     double different = 0;
     for (std::size_t i = 0; i < points.size(); ++i) different += one[i] != wide[i];
     finding.add(different);
@@ -123,17 +128,22 @@ Finding sameBits(int lanes) {
 std::vector<Check> polygonChecks() {
   std::vector<Check> checks;
   for (const int corners : {3, 4, 8})
-    checks.push_back({fmt::format("polygon/identity_{}_corners", corners), "error of form factors",
-                      [corners](int lanes) { return formFactor(corners, lanes); }});
+    checks.push_back(
+        {fmt::format("polygon/identity_{}_corners", corners), "error of form factors",
+         [corners](const CheckContext& context) { return formFactor(context, corners); }});
   checks.insert(checks.end(),
                 {{"polygon/one_sided", "error of form factors", oneSided},
                  {"polygon/parallel_corner", "error of form factors", parallelCorner},
                  {"polygon/standing_on_horizon", "error of form factors", standing},
                  {"polygon/2pi_steradians", "error of form factors", hemisphere},
                  {"polygon/1e-10_to_1e-6_sr", "relative error",
-                  [](int lanes) { return solidAngles(1e-10, 1e-6, kTinyLightRelative, lanes); }},
+                  [](const CheckContext& context) {
+                    return solidAngles(context, 1e-10, 1e-6, kTinyLightRelative);
+                  }},
                  {"polygon/1e-6_to_6_sr", "relative error",
-                  [](int lanes) { return solidAngles(1e-6, 6, kSmallLightRelative, lanes); }},
+                  [](const CheckContext& context) {
+                    return solidAngles(context, 1e-6, 6, kSmallLightRelative);
+                  }},
                  {"polygon/same_bits", "points that differ from one lane's", sameBits}});
   return checks;
 }

@@ -79,9 +79,9 @@ HandMadeFrame scatterFrame(const ScatterCase& c, const KernelConfig& config) {
   return frame;
 }
 
-KernelConfig scatterConfig(DiffuseModel model, int lanes) {
+KernelConfig scatterConfig(const CheckContext& context, DiffuseModel model) {
   KernelConfig config;
-  config.width = lanes;
+  config.width = context.lanes;
   config.glint = config.size_variation = false;
   config.diffuse = true;
   config.multiscatter = static_cast<Multiscatter>(model);
@@ -100,8 +100,8 @@ double expectedRadiance(const Material& material, const LobeModel& lobes, const 
 
 // One material over all pairs: finite, not negative, black where the albedo is, and as in double
 // precision, in units of the tolerance.
-void addMaterial(Finding& finding, const Material& material,
-                 const std::vector<DirectionPair>& pairs, int lanes) {
+void addMaterial(const CheckContext& context, Finding& finding, const Material& material,
+                 const std::vector<DirectionPair>& pairs) {
   LobePolynomials set = material.diffuse_model == DiffuseModel::kPublished
                             ? kPublishedCode
                             : multiscatterData().refit;
@@ -109,7 +109,8 @@ void addMaterial(Finding& finding, const Material& material,
   const LobeModel lobes(set, material.diffuse_roughness);
   const double tolerance =
       material.diffuse_masking > 0 ? kMaskedScatterTolerance : kScatterTolerance;
-  const std::vector<ScatteredRadiance> probed = probeScatter(pairs, material, lanes);
+  const std::vector<ScatteredRadiance> probed =
+      probeScatter(context.bench, pairs, material, context.lanes);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const auto [single, multiple] = probed[i];
     const double sum = single + multiple;
@@ -130,25 +131,25 @@ void addMaterial(Finding& finding, const Material& material,
 
 // Dense grids of roughness, incidence, view, albedo and masking, also where the formulas have
 // nothing to say.
-Finding matchesReference(DiffuseModel model, int lanes) {
+Finding matchesReference(const CheckContext& context, DiffuseModel model) {
   Finding finding(1);
   const std::vector<DirectionPair> pairs = denseDirections();
   for (const double alpha : {0.0, 1e-3, 0.04, 0.08, 0.12, 0.2, 0.3, 0.45, 0.6, 0.75, 0.9, 1.0})
     for (const double albedo : {0.0, 0.5, 1.0})
       for (const double masking : {0.0, 0.5, 1.0})
         if (model != DiffuseModel::kEon || masking == 0)
-          addMaterial(finding, roughMaterial(model, alpha, albedo, masking), pairs, lanes);
+          addMaterial(context, finding, roughMaterial(model, alpha, albedo, masking), pairs);
   return finding;
 }
 
 // Albedo 1: all that leaves, over what came in, is never more than 1. The worst is the excess.
-Finding furnace(DiffuseModel model, int lanes) {
+Finding furnace(const CheckContext& context, DiffuseModel model) {
   Finding finding(kFurnaceTolerance);
-  const KernelConfig config = scatterConfig(model, lanes);
+  const KernelConfig config = scatterConfig(context, model);
   for (const double alpha : {0.0, 0.3, 0.8, 1.0})
     for (const double light_cosine : {0.05, 0.3, 0.7, 1.0}) {
       const HandMadeFrame frame = scatterFrame({model, alpha, 1, light_cosine, kAzimuths}, config);
-      const ShadedPixels shaded = shadePixels(frame, config);
+      const ShadedPixels shaded = shadePixels(context.bench, frame, config);
       double energy = 0;
       for (std::size_t i = 0; i < frame.pixels.size(); ++i)
         energy += shaded.radiance[i].x * viewCosine(frame.pixels[i]) * 2 * kPi / kViews;
@@ -158,16 +159,16 @@ Finding furnace(DiffuseModel model, int lanes) {
 }
 
 // Light and view from straight up to 0 and below the horizon: nothing negative, nothing not finite.
-Finding horizon(DiffuseModel model, int lanes) {
+Finding horizon(const CheckContext& context, DiffuseModel model) {
   double bad = 0;
-  const KernelConfig config = scatterConfig(model, lanes);
+  const KernelConfig config = scatterConfig(context, model);
   for (const double light_cosine : {1.0, 1e-3, 1e-7, 0.0, -0.5})
     for (const double albedo : {0.0, 1.0}) {
       HandMadeFrame frame = scatterFrame({model, 0.8, albedo, light_cosine, 4}, config);
       for (const glm::dvec3& origin : {glm::dvec3(0, 0, -1), glm::dvec3(1, 0, 0),
                                        glm::dvec3(1, 0, -1e-7), glm::dvec3(1, 0, 0.2)}) {
         frame.ray_origin = origin;
-        for (const glm::vec3& radiance : shadePixels(frame, config).radiance)
+        for (const glm::vec3& radiance : shadePixels(context.bench, frame, config).radiance)
           bad += !(std::isfinite(radiance.x) && radiance.x >= 0) || (albedo == 0 && radiance.x > 0);
       }
     }
@@ -177,18 +178,20 @@ Finding horizon(DiffuseModel model, int lanes) {
 }
 
 // The models alone, and whole pixels with several lights.
-Finding sameBits(DiffuseModel model, int lanes) {
+Finding sameBits(const CheckContext& context, DiffuseModel model) {
   double different = 0;
   const std::vector<DirectionPair> pairs = denseDirections();
   const Material material = roughMaterial(model, 0.6, 0.8, model == DiffuseModel::kEon ? 0 : 0.7);
-  const std::vector<ScatteredRadiance> one = probeScatter(pairs, material, 1),
-                                       wide = probeScatter(pairs, material, lanes);
+  const std::vector<ScatteredRadiance> one = probeScatter(context.bench, pairs, material, 1),
+                                       wide = probeScatter(context.bench, pairs, material,
+                                                           context.lanes);
   for (std::size_t i = 0; i < pairs.size(); ++i)
     different += one[i].single != wide[i].single || one[i].multiple != wide[i].multiple;
-  const KernelConfig wide_config = scatterConfig(model, lanes),
-                     one_config = scatterConfig(model, 1);
+  const KernelConfig wide_config = scatterConfig(context, model),
+                     one_config = scatterConfig(context.withLanes(1), model);
   const HandMadeFrame frame = scatterFrame({model, 0.7, 0.85, 0.6, 8}, wide_config);
-  const ShadedPixels a = shadePixels(frame, wide_config), b = shadePixels(frame, one_config);
+  const ShadedPixels a = shadePixels(context.bench, frame, wide_config),
+                     b = shadePixels(context.bench, frame, one_config);
   for (std::size_t i = 0; i < a.radiance.size(); ++i) different += a.radiance[i] != b.radiance[i];
   Finding finding(0);
   finding.add(different);
@@ -200,9 +203,10 @@ Finding sameBits(DiffuseModel model, int lanes) {
 std::vector<Check> scatterChecks() {
   std::vector<Check> checks;
   for (const Model& m : kModels) {
-    const auto add = [&](const char* name, const char* measure, Finding (*run)(DiffuseModel, int)) {
+    const auto add = [&](const char* name, const char* measure,
+                         Finding (*run)(const CheckContext&, DiffuseModel)) {
       checks.push_back({fmt::format("scatter/{}_{}", m.name, name), measure,
-                        [run, &m](int lanes) { return run(m.model, lanes); }});
+                        [run, &m](const CheckContext& context) { return run(context, m.model); }});
     };
     add("reference", "error in units of its bound", matchesReference);
     add("furnace", "energy that leaves - 1", furnace);

@@ -13,7 +13,7 @@ namespace glintmark {
 namespace {
 
 // Steps 3 to 6, in integers.
-Finding seeds(int lanes) {
+Finding seeds(const CheckContext& context) {
   const std::vector<std::int32_t> u = interestingIndices();
   std::vector<std::int32_t> v = u, ju(u.size()), jv(u.size());
   std::ranges::reverse(v);
@@ -25,7 +25,7 @@ Finding seeds(int lanes) {
     ju[i] = (half[i].u + static_cast<std::int32_t>(seed & 0xFFFFu)) >> 16;
     jv[i] = (half[i].v + static_cast<std::int32_t>(seed >> 16)) >> 16;
   }
-  const HashProbe probe = probeHash(u, v, ju, jv, lanes);
+  const HashProbe probe = probeHash(context.bench, u, v, ju, jv, context.lanes);
   double different = 0;
   for (std::size_t i = 0; i < u.size(); ++i) {
     const std::uint32_t cell = reference::cellSeed(u[i], v[i]);
@@ -39,11 +39,11 @@ Finding seeds(int lanes) {
 }
 
 // U(h) in units of its last place, and the sum of four bytes.
-Finding randomNumbers(int lanes) {
+Finding randomNumbers(const CheckContext& context) {
   std::vector<std::uint32_t> bits = {0, 1, 0x7FFFFFFFu, 0x80000000u, 0xFFFFFFFFu, 0xFF00FF00u};
   std::mt19937 random(9);
   for (int i = 0; i < 4096; ++i) bits.push_back(static_cast<std::uint32_t>(random()));
-  const RandomProbe probe = probeRandom(bits, lanes);
+  const RandomProbe probe = probeRandom(context.bench, bits, context.lanes);
   Finding finding(1);
   for (std::size_t i = 0; i < bits.size(); ++i) {
     finding.add(std::abs(probe.uniform[i] / reference::uniformOf(bits[i]) - 1) / 0x1p-23);

@@ -35,10 +35,11 @@ struct Shape {
 constexpr Shape kShapes[] = {{64, 64, 1}, {64, 64, 4}, {37, 19, 1}, {1, 1, 1},  {1, 53, 2},
                              {96, 1, 1},  {33, 65, 8}, {20, 30, 3}, {20, 30, 6}};
 
-Finding matchesReference(const Shape& shape, int lanes) {
+Finding matchesReference(const CheckContext& context, const Shape& shape) {
   const TestTexture texture = randomTexture(shape.width, shape.height, shape.texel_size, 7);
   const std::vector<TexturePixel> pixels = randomFootprints(400, 11);
-  const auto fetched = fetchPixels(texture, shape.texel_size, pixels, kMostProbes, true, lanes);
+  const auto fetched = fetchPixels(context.bench, texture, shape.texel_size, pixels, kMostProbes,
+                                   true, context.lanes);
   Finding finding(kFetchTolerance);
   std::size_t compared = 0;
   for (std::size_t i = 0; i < pixels.size(); ++i) {
@@ -57,18 +58,18 @@ Finding matchesReference(const Shape& shape, int lanes) {
   return finding;
 }
 
-Finding clampedBorders(int lanes) {
+Finding clampedBorders(const CheckContext& context) {
   const TestTexture texture = randomTexture(16, 16, 1, 3);
   std::vector<TexturePixel> pixels(2);
   pixels[1].u = pixels[1].v = 0xFFFFFFFFu;
-  const auto fetched = fetchPixels(texture, 1, pixels, 1, false, lanes);
+  const auto fetched = fetchPixels(context.bench, texture, 1, pixels, 1, false, context.lanes);
   Finding finding(kFetchTolerance);
   finding.add(std::abs(fetched[0].values[0] - texture.texels[0].x));
   finding.add(std::abs(fetched[1].values[0] - texture.texels[255].x));
   return finding;
 }
 
-Finding badDerivatives(int lanes) {
+Finding badDerivatives(const CheckContext& context) {
   const TestTexture texture = randomTexture(16, 16, 1, 3);
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   constexpr float kInfinite = std::numeric_limits<float>::infinity();
@@ -78,27 +79,30 @@ Finding badDerivatives(int lanes) {
       pixels.push_back({1u << 30, 1u << 29, bad, other, other, bad});
   Finding finding(0);
   double bad = 0;
-  for (const FetchedTexel& texel : fetchPixels(texture, 1, pixels, kMostProbes, true, lanes))
+  for (const FetchedTexel& texel :
+       fetchPixels(context.bench, texture, 1, pixels, kMostProbes, true, context.lanes))
     bad += !(std::abs(texel.values[0]) <= 1) || texel.count < 1 || texel.count > kMostProbes;
   finding.add(bad);
   return finding;
 }
 
 // One probe is at least as wide as the major axis.
-Finding isotropicProbe(int lanes) {
+Finding isotropicProbe(const CheckContext& context) {
   const TestTexture texture = randomTexture(64, 64, 1, 3);
-  const auto fetched = fetchPixels(texture, 1, {{0, 0, 0.25f, 0, 0, 0.015625f}}, 1, true, lanes);
+  const auto fetched = fetchPixels(context.bench, texture, 1, {{0, 0, 0.25f, 0, 0, 0.015625f}}, 1,
+                                   true, context.lanes);
   Finding finding(kLevelTolerance);
   finding.require(fetched[0].count == 1, "more than one probe");
   finding.add(std::abs(fetched[0].level - std::log2(16 / std::sqrt(3.0))));
   return finding;
 }
 
-Finding sameBits(int lanes) {
+Finding sameBits(const CheckContext& context) {
   const TestTexture texture = randomTexture(48, 31, 4, 3);
   const std::vector<TexturePixel> pixels = randomFootprints(333, 5);
-  const auto one = fetchPixels(texture, 4, pixels, kMostProbes, true, 1);
-  const auto wide = fetchPixels(texture, 4, pixels, kMostProbes, true, lanes);
+  const auto one = fetchPixels(context.bench, texture, 4, pixels, kMostProbes, true, 1);
+  const auto wide =
+      fetchPixels(context.bench, texture, 4, pixels, kMostProbes, true, context.lanes);
   double different = 0;
   for (std::size_t i = 0; i < pixels.size(); ++i)
     for (std::size_t c = 0; c < 16; ++c)
@@ -116,7 +120,8 @@ std::vector<Check> textureChecks() {
   for (const Shape& shape : kShapes)
     checks.push_back(
         {fmt::format("texture/{}x{}_of_{}", shape.width, shape.height, shape.texel_size),
-         "absolute error", [&shape](int lanes) { return matchesReference(shape, lanes); }});
+         "absolute error",
+         [&shape](const CheckContext& context) { return matchesReference(context, shape); }});
   checks.insert(checks.end(),
                 {{"texture/clamped_borders", "absolute error", clampedBorders},
                  {"texture/bad_derivatives", "fetches out of range", badDerivatives},

@@ -74,8 +74,8 @@ BrowserResult runChromium(const std::filesystem::path& page,
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readTextFile(folder / "out"),
-          consoleLines(readTextFile(folder / "err"))};
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readFile(folder / "out"),
+          consoleLines(readFile(folder / "err"))};
 }
 
 }  // namespace glintmark

@@ -179,7 +179,7 @@ TEST_F(Page, PrintsToPdf) {
       runChromium(page_, {"--print-to-pdf=" + pdf.string(), "--no-pdf-header-footer"});
   ASSERT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.console, "");
-  const std::string bytes = readTextFile(pdf);
+  const std::string bytes = readFile(pdf);
   EXPECT_TRUE(bytes.starts_with("%PDF-"));
   EXPECT_GE(countOf(bytes, "/Type /Page\n"), 2u);
 }

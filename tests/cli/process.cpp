@@ -62,8 +62,8 @@ ProcessResult Process::wait() {
   int status = 0;
   while (waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
   }
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readTextFile(folder_ / "out"),
-          readTextFile(folder_ / "err")};
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readFile(folder_ / "out"),
+          readFile(folder_ / "err")};
 }
 
 ProcessResult runGlintmark(const std::vector<std::string>& arguments,

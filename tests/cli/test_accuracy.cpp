@@ -61,9 +61,9 @@ TEST(Accuracy, ModelsAndSimulations) {
   EXPECT_GE(optimal, 1);
   // Lambert knows nothing of roughness: even so few rays tell that it is worse.
   EXPECT_GT(errors["msbrdf/model=lambert"], errors["msbrdf/model=eon"]);
-  EXPECT_EQ(readTextFile(folder / "copy.json"), readTextFile(folder / "r/results.json"));
+  EXPECT_EQ(readFile(folder / "copy.json"), readFile(folder / "r/results.json"));
 
-  const std::string table = readTextFile(folder / "r/table.txt");
+  const std::string table = readFile(folder / "r/table.txt");
   EXPECT_NE(table.find("The default of msbrdf has an error of"), std::string::npos) << table;
   EXPECT_NE(table.find("Not measured, being beyond --rays 100000: rays=1e6"), std::string::npos)
       << table;
@@ -71,13 +71,13 @@ TEST(Accuracy, ModelsAndSimulations) {
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
 
   // All is there already: nothing is measured again, and nothing doubled.
-  const std::string log = readTextFile(folder / "r/records.jsonl");
-  const std::string results = readTextFile(folder / "r/results.csv");
+  const std::string log = readFile(folder / "r/records.jsonl");
+  const std::string results = readFile(folder / "r/results.csv");
   auto resume = arguments;
   resume.push_back("--resume");
   EXPECT_EQ(runGlintmark(resume).exit_code, 0);
-  EXPECT_EQ(readTextFile(folder / "r/records.jsonl"), log);
-  EXPECT_EQ(readTextFile(folder / "r/results.csv"), results);
+  EXPECT_EQ(readFile(folder / "r/records.jsonl"), log);
+  EXPECT_EQ(readFile(folder / "r/results.csv"), results);
 }
 
 TEST(Accuracy, FramesAgainstASupersampledTruth) {
@@ -103,7 +103,7 @@ TEST(Accuracy, FramesAgainstASupersampledTruth) {
   EXPECT_LT(errors["gmm/supersamples=64"], errors["gmm/supersamples=16"]);
   EXPECT_GT(truth["gmm/lobes=4"], 0);
   EXPECT_GT(ratios["gmm/supersamples=64"], ratios["gmm/supersamples=4"]);
-  std::istringstream lines(readTextFile(folder / "r/table.txt"));
+  std::istringstream lines(readFile(folder / "r/table.txt"));
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
 }
 

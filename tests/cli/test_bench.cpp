@@ -26,7 +26,7 @@ std::vector<std::string> benchArguments(const TempFolder& folder,
 
 std::size_t lineCount(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file)) return 0;
-  const std::string text = readTextFile(file);
+  const std::string text = readFile(file);
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
@@ -67,12 +67,12 @@ TEST(Bench, WritesEveryFile) {
   }
   EXPECT_EQ(lineCount(folder / "r/records.jsonl"), results.records.size() + 1);
   EXPECT_EQ(lineCount(folder / "r/results.csv"), results.records.size() + 1);
-  EXPECT_EQ(readTextFile(folder / "copy.json"), readTextFile(folder / "r/results.json"));
-  EXPECT_EQ(readTextFile(folder / "copy.csv"), readTextFile(folder / "r/results.csv"));
+  EXPECT_EQ(readFile(folder / "copy.json"), readFile(folder / "r/results.json"));
+  EXPECT_EQ(readFile(folder / "copy.csv"), readFile(folder / "r/results.csv"));
   EXPECT_TRUE(std::filesystem::exists(folder / "r/cells_screen_plane_steep.png"));
   EXPECT_TRUE(std::filesystem::exists(folder / "r/cells_screen_plane_grazing.png"));
 
-  std::istringstream table(readTextFile(folder / "r/table.txt"));
+  std::istringstream table(readFile(folder / "r/table.txt"));
   for (std::string line; std::getline(table, line);) EXPECT_LE(line.size(), 100u) << line;
 }
 
@@ -90,13 +90,13 @@ TEST(Bench, InterruptKeepsRecordsAndResumeCompletesThem) {
       << interrupted.err;
   EXPECT_NE(interrupted.err.find("--resume"), std::string::npos) << interrupted.err;
   EXPECT_FALSE(std::filesystem::exists(folder / "r/results.json"));
-  const std::string kept = readTextFile(folder / "r/records.jsonl");
+  const std::string kept = readFile(folder / "r/records.jsonl");
 
   auto resume = arguments;
   resume.push_back("--resume");
   const ProcessResult resumed = runGlintmark(resume);
   EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
-  EXPECT_TRUE(readTextFile(folder / "r/records.jsonl").starts_with(kept));
+  EXPECT_TRUE(readFile(folder / "r/records.jsonl").starts_with(kept));
   std::set<std::string> cases;
   for (const Record& record : readResults(folder / "r/results.json").records) {
     cases.insert(record.case_);
@@ -104,9 +104,9 @@ TEST(Bench, InterruptKeepsRecordsAndResumeCompletesThem) {
   EXPECT_EQ(cases, (std::set<std::string>{"screen_plane/steep", "screen_plane/grazing"}));
 
   // Nothing is left to measure now: the log stays as it is.
-  const std::string whole = readTextFile(folder / "r/records.jsonl");
+  const std::string whole = readFile(folder / "r/records.jsonl");
   EXPECT_EQ(runGlintmark(resume).exit_code, 0);
-  EXPECT_EQ(readTextFile(folder / "r/records.jsonl"), whole);
+  EXPECT_EQ(readFile(folder / "r/records.jsonl"), whole);
 }
 
 TEST(Bench, DamagedLogIsAnErrorOnlyForResume) {
@@ -133,7 +133,7 @@ TEST(Bench, EffectsOfOneSetResumedAfterAnInterrupt) {
   EXPECT_EQ(interrupted.exit_code, 130) << interrupted.err << interrupted.out;
   EXPECT_NE(interrupted.err.find("of table effects are kept"), std::string::npos)
       << interrupted.err;
-  const std::string kept = readTextFile(folder / "r/records.jsonl");
+  const std::string kept = readFile(folder / "r/records.jsonl");
   EXPECT_NE(kept.find("\"case\":\"none\""), std::string::npos);
   for (const char* metric : {"shading_ms", "uber_over_specialised", "planes_bytes", "tables_bytes",
                              "peak_bytes", "build_ms"})
@@ -146,7 +146,7 @@ TEST(Bench, EffectsOfOneSetResumedAfterAnInterrupt) {
   ASSERT_TRUE(waitForLines(folder / "r/records.jsonl", lineCount(folder / "r/records.jsonl") + 1));
   resumed.interrupt();
   resumed.wait();
-  EXPECT_TRUE(readTextFile(folder / "r/records.jsonl").starts_with(kept));
+  EXPECT_TRUE(readFile(folder / "r/records.jsonl").starts_with(kept));
 }
 
 }  // namespace

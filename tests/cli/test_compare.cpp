@@ -33,7 +33,7 @@ TEST_F(Compare, ExitCodeTellsARegression) {
       runGlintmark({"compare", before, after, "--json", folder_ / "comparison.json"});
   EXPECT_EQ(worse.exit_code, 1) << worse.err;
   EXPECT_NE(worse.out.find("WORSE"), std::string::npos) << worse.out;
-  EXPECT_NE(readTextFile(folder_ / "comparison.json").find("\"regression\": true"),
+  EXPECT_NE(readFile(folder_ / "comparison.json").find("\"regression\": true"),
             std::string::npos);
   EXPECT_EQ(runGlintmark({"compare", after, before}).exit_code, 0);
   EXPECT_EQ(runGlintmark({"compare", before, after, "--threshold", "60"}).exit_code, 0);
@@ -53,14 +53,14 @@ TEST_F(Compare, OtherDevicesAreRefusedUnlessTold) {
 
 TEST_F(Compare, RecordsOfANewerSchemaAreNamed) {
   const std::string good = write("good.json", shadingMs(10)), newer = folder_ / "newer.json";
-  std::string text = readTextFile(good);
+  std::string text = readFile(good);
   text.replace(text.find("glintmark.results/1"), 19, "glintmark.results/2");
   writeFile(newer, text);
   const ProcessResult result = runGlintmark({"compare", good, newer});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_NE(result.err.find(newer), std::string::npos) << result.err;
   EXPECT_NE(result.err.find("'glintmark.results/2'"), std::string::npos) << result.err;
-  EXPECT_EQ(readTextFile(newer), text);
+  EXPECT_EQ(readFile(newer), text);
 }
 
 TEST_F(Compare, LosingValidityIsARegression) {

@@ -41,7 +41,7 @@ std::map<std::string, int> countsOf(const std::vector<Record>& records) {
 }
 
 std::vector<Record> logRecords(const std::filesystem::path& file) {
-  std::istringstream lines(readTextFile(file));
+  std::istringstream lines(readFile(file));
   std::vector<Record> records;
   std::string line;
   std::getline(lines, line);
@@ -101,9 +101,9 @@ TEST(Faults, AFullDiskKeepsWhatIsWrittenAndResumeCompletesIt) {
   EXPECT_TRUE(stopped.err.starts_with("glintmark: cannot write ")) << stopped.err;
   EXPECT_EQ(std::count(stopped.err.begin(), stopped.err.end(), '\n'), 1) << stopped.err;
   EXPECT_FALSE(std::filesystem::exists(full / "results.json"));
-  const std::string kept = readTextFile(full / "records.jsonl");
+  const std::string kept = readFile(full / "records.jsonl");
   ASSERT_EQ(runGlintmark(sweep(full, {"--resume"})).exit_code, 0);
-  EXPECT_TRUE(readTextFile(full / "records.jsonl").starts_with(kept));
+  EXPECT_TRUE(readFile(full / "records.jsonl").starts_with(kept));
   EXPECT_EQ(countsOf(readResults(full / "results.json").records),
             countsOf(readResults(folder / "whole/results.json").records));
 }
@@ -117,7 +117,7 @@ TEST(Faults, AFullDiskLeavesTheOldPage) {
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_NE(result.err.find("cannot write"), std::string::npos) << result.err;
   EXPECT_NE(result.err.find("page.html"), std::string::npos) << result.err;
-  EXPECT_EQ(readTextFile(folder / "page.html"), "old");
+  EXPECT_EQ(readFile(folder / "page.html"), "old");
   EXPECT_EQ(folder.entryCount(), 2u);
 }
 
@@ -159,7 +159,7 @@ TEST(Faults, ANewerSchemaIsReadByNothingAndStaysAsItIs) {
     EXPECT_EQ(result.exit_code, 2) << arguments[0];
     EXPECT_NE(result.err.find("glintmark.results/2"), std::string::npos) << result.err;
   }
-  EXPECT_EQ(readTextFile(file), text);
+  EXPECT_EQ(readFile(file), text);
   EXPECT_EQ(folder.entryCount(), 1u);
 }
 
@@ -170,7 +170,7 @@ TEST(Faults, PagesSayWhichPicturesTheyLack) {
   writeFile(folder / "cells_snow_steep.png", "no picture");
   const ProcessResult result = runGlintmark({"report", folder.path(), "-o", folder / "page.html"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  const std::string page = readTextFile(folder / "page.html");
+  const std::string page = readFile(folder / "page.html");
   EXPECT_NE(page.find("cells_car_steep.png is not in the folder"), std::string::npos);
   EXPECT_NE(page.find("cannot read image"), std::string::npos);
 }

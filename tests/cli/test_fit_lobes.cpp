@@ -60,8 +60,8 @@ TEST(FitLobes, WritesTablesPicturesAndData) {
     if (result.out.find("written to", begin) > end) widest = std::max(widest, end - begin);
   EXPECT_LE(widest, 100u);
   for (const char* file : {"multiscatter.json", "free_lobes.csv", "lobe_errors.txt"})
-    EXPECT_FALSE(readTextFile(folder / (std::string("out/") + file)).empty()) << file;
-  const std::string csv = readTextFile(folder / "out/free_lobes.csv");
+    EXPECT_FALSE(readFile(folder / (std::string("out/") + file)).empty()) << file;
+  const std::string csv = readFile(folder / "out/free_lobes.csv");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 11 * 10 * 4);
   EXPECT_GT(readImage(folder / "residuals.png").width, 900);
   EXPECT_GT(readImage(folder / "out/lobe_residuals.png").width, 100);

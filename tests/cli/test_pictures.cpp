@@ -107,7 +107,7 @@ TEST(Heatmap, SweepTakesMoreCellsTowardsTheHorizon) {
   const TempFolder folder;
   runQuietly({"heatmap", "--sweep-angle", "--size", "64x36", "-o", folder / "a.png", "--csv",
               folder / "a.csv"});
-  const std::vector<std::string> lines = linesOf(readTextFile(folder / "a.csv"));
+  const std::vector<std::string> lines = linesOf(readFile(folder / "a.csv"));
   ASSERT_EQ(lines.size(), 14u);  // header and 13 angles
   EXPECT_EQ(lines[0], "angle_deg,cells_min,cells_mean,cells_max,guard_hits,ns_per_cell");
   EXPECT_TRUE(lines[1].starts_with("90,8,8,8,0,")) << lines[1];  // [ZK16] Sect. 5: 8 at best

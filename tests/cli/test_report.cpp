@@ -26,7 +26,7 @@ TEST_F(Report, OnePageWithThePicturesOfTheFolder) {
   const ProcessResult result = runGlintmark({"report", folder_ / "", "-o", page});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(result.out.find("1 figures and 1 pictures"), std::string::npos) << result.out;
-  const std::string html = readTextFile(page);
+  const std::string html = readFile(page);
   EXPECT_NE(html.find("<a href=\"results.json\">"), std::string::npos);
   EXPECT_NE(html.find("cells_snow_steep.png"), std::string::npos);
 }
@@ -38,7 +38,7 @@ TEST_F(Report, BadInputLeavesNoPage) {
   EXPECT_EQ(no_results.exit_code, 2);
   EXPECT_NE(no_results.err.find("results.json"), std::string::npos) << no_results.err;
   writeResults();
-  std::string text = readTextFile(folder_ / "results.json");
+  std::string text = readFile(folder_ / "results.json");
   text.insert(text.find("glintmark.results/") + 18, "9");
   writeFile(folder_ / "results.json", text);
   EXPECT_EQ(runGlintmark({"report", folder_ / "", "-o", page}).exit_code, 2);

@@ -62,7 +62,7 @@ TEST(Simulate, CarriesOnFromItsOwnCheckpointsOnly) {
   expectRefusal({"--resume"}, {"--resume", "--checkpoint FILE"});
   expectRefusal({"--resume", "--checkpoint", file}, {"run.sim"});
   ASSERT_EQ(simulate({"--rays", "1048576", "--checkpoint", file}).exit_code, 0);
-  const std::string whole = readTextFile(file);
+  const std::string whole = readFile(file);
   expectRefusal({"--resume", "--checkpoint", file, "--alpha", "0.5"},
                 {"run.sim", "another run", "alpha=0.8", "alpha=0.5"});
   expectRefusal({"--resume", "--checkpoint", file, "--rays", "1000"},
@@ -72,7 +72,7 @@ TEST(Simulate, CarriesOnFromItsOwnCheckpointsOnly) {
   EXPECT_EQ(more.exit_code, 0) << more.err;
   EXPECT_NE(more.out.find("1050000 rays"), std::string::npos);
   ASSERT_EQ(simulate({"--rays", "1050000", "--csv", folder / "b.csv"}).exit_code, 0);
-  EXPECT_EQ(readTextFile(folder / "a.csv"), readTextFile(folder / "b.csv"));
+  EXPECT_EQ(readFile(folder / "a.csv"), readFile(folder / "b.csv"));
   writeFile(file, whole.substr(0, whole.size() - 9));
   expectRefusal({"--resume", "--checkpoint", file}, {"run.sim", "damaged"});
   writeFile(file, "a letter");

@@ -35,7 +35,7 @@ struct Trace {
   std::vector<std::string> names;  // of processes and threads
 
   explicit Trace(const std::filesystem::path& file) {
-    const Json json = Json::parse(readTextFile(file));
+    const Json json = Json::parse(readFile(file));
     EXPECT_FALSE(json.at("otherData").at("device").get<std::string>().empty());
     EXPECT_FALSE(json.at("otherData").at("git").get<std::string>().empty());
     for (const Json& event : json.at("traceEvents")) {

@@ -88,7 +88,7 @@ TEST(Usage, SceneFiles) {
   writeFile(folder / "cut.toml", "description = \"a\"\n[mesh\n");
   writeFile(
       folder / "typo.toml",
-      "descriptino = \"a\"\n" + readTextFile(GLINTMARK_SOURCE_DIR "/scenes/screen_plane.toml"));
+      "descriptino = \"a\"\n" + readFile(GLINTMARK_SOURCE_DIR "/scenes/screen_plane.toml"));
   const std::string picture = folder / "a.png";
   expectError({"render", folder / "cut.toml", "-o", picture}, 2, {"cut.toml", "2"});
   expectError({"render", folder / "typo.toml", "-o", picture}, 2, {"descriptino", "description"});

@@ -18,7 +18,7 @@ fs::path changedKernels(const TempFolder& folder, const std::string& file, const
                         const std::string& to) {
   const fs::path kernels = folder / "kernels";
   fs::copy(GLINTMARK_SOURCE_DIR "/kernels", kernels, fs::copy_options::recursive);
-  std::string text = readTextFile(kernels / file);
+  std::string text = readFile(kernels / file);
   const std::size_t at = text.find(from);
   if (at == std::string::npos) throw std::runtime_error(file + " has no " + from);
   text.replace(at, from.size(), to);
@@ -49,7 +49,7 @@ TEST(Verify, TableAndJsonSayTheSame) {
   ASSERT_EQ(result.exit_code, 0) << result.err << result.out;
   EXPECT_NE(result.out.find("2 checks: 2 pass, 0 fail, 0 skipped"), std::string::npos)
       << result.out;
-  const auto json = nlohmann::json::parse(readTextFile(folder / "verify.json"));
+  const auto json = nlohmann::json::parse(readFile(folder / "verify.json"));
   EXPECT_EQ(json["schema"], "glintmark.verification/1");
   EXPECT_EQ(json["passed"], 2);
   EXPECT_FALSE(json["run"]["device"].get<std::string>().empty());
@@ -68,7 +68,7 @@ TEST(Verify, CatchesAChangedHash) {
       verify("^seeds/integers$", {"--json", folder / "verify.json"}, kernels);
   EXPECT_EQ(result.exit_code, 1) << result.err << result.out;
   EXPECT_NE(result.out.find("FAIL"), std::string::npos) << result.out;
-  const auto json = nlohmann::json::parse(readTextFile(folder / "verify.json"));
+  const auto json = nlohmann::json::parse(readFile(folder / "verify.json"));
   EXPECT_EQ(json["failed"], 1);
 }
 

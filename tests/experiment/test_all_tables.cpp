@@ -95,7 +95,7 @@ std::string metricsMarkdown(const TableSpec& table) {
 }
 
 TEST(AllTables, ReadmeSaysWhatTheTablesSay) {
-  const std::string readme = readTextFile(kProject / "results/README.md");
+  const std::string readme = readFile(kProject / "results/README.md");
   const std::vector<TableSpec> tables = allTableSpecs();
   std::size_t sections = 0;
   for (const TableSpec& table : tables) {
@@ -134,7 +134,7 @@ TEST(AllTables, ReportKnowsNoneByName) {
   std::size_t files = 0;
   for (const fs::path& file : filesBelow(kProject / "host/report")) {
     ++files;
-    EXPECT_EQ(namedTables(readTextFile(file)), std::vector<std::string>()) << file;
+    EXPECT_EQ(namedTables(readFile(file)), std::vector<std::string>()) << file;
   }
   EXPECT_GT(files, 40u);
 }

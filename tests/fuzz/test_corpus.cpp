@@ -18,7 +18,7 @@ TEST_P(Corpus, EveryInputIsReadOrRefused) {
   int inputs = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     SCOPED_TRACE(entry.path());
-    const std::string bytes = readTextFile(entry.path());
+    const std::string bytes = readFile(entry.path());
     EXPECT_NO_THROW(GetParam().run(bytes)) << entry.path();
     // The first half, as a file that was cut off.
     EXPECT_NO_THROW(GetParam().run(std::string_view(bytes).substr(0, bytes.size() / 2)));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "host/harness/binomial_cases.h"
+#include "tests/shared_bench.h"
 
 namespace glintmark {
 namespace {
@@ -29,7 +30,7 @@ TEST_P(Binomial, ChiSquare) {
     const boost::math::binomial distribution(c.n, c.p);
     // Classes of at least 40 expected draws.
     std::map<std::int64_t, double> counts;
-    for (const float k : binomialDraws(c, GetParam(), false, kLanes))
+    for (const float k : binomialDraws(testBench(), c, GetParam(), false, kLanes))
       ++counts[static_cast<std::int64_t>(k)];
     const double sigma = std::sqrt(spread);
     const auto first = static_cast<std::int64_t>(std::max(0.0, std::floor(mean - 8 * sigma - 8)));

@@ -8,6 +8,7 @@
 #include "host/harness/pixel_harness.h"
 #include "host/harness/random_pixels.h"
 #include "host/reference/footprint.h"
+#include "tests/shared_bench.h"
 
 namespace glintmark {
 namespace {
@@ -30,7 +31,7 @@ ShadedPixels visit(const HandMadeFrame& frame, GlintMethod method, int ka = 16) 
   config.ka = ka;
   config.size_variation = false;
   config.count_cells = true;
-  return shadePixels(frame, config);
+  return shadePixels(testBench(), frame, config);
 }
 
 TEST(CellsZk16, SquareFootprintsTakeFewAndLongOnesTheLimit) {
@@ -161,7 +162,7 @@ std::vector<double> planeImage(GlintMethod method, glm::dvec2 shift_px, double z
   config.width = 16;
   config.method = method;
   config.size_variation = false;
-  const ShadedPixels shaded = shadePixels(frame, config);
+  const ShadedPixels shaded = shadePixels(testBench(), frame, config);
   std::vector<double> image(kSize * kSize);
   for (int y = 0; y < fine; ++y)
     for (int x = 0; x < fine; ++x)
@@ -240,7 +241,8 @@ std::vector<float> cellImage(GlintMethod method, int level, int count, double pe
   config.method = method;
   config.size_variation = false;
   std::vector<float> image;
-  for (const glm::vec3& radiance : shadePixels(frame, config).radiance) image.push_back(radiance.x);
+  for (const glm::vec3& radiance : shadePixels(testBench(), frame, config).radiance)
+    image.push_back(radiance.x);
   return image;
 }
 

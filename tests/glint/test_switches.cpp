@@ -11,6 +11,7 @@
 
 #include "host/harness/pixel_harness.h"
 #include "host/harness/random_pixels.h"
+#include "tests/shared_bench.h"
 
 namespace glintmark {
 namespace {
@@ -41,18 +42,18 @@ TEST(Switches, CountingCellsKeepsTheImage) {
   for (const GlintMethod method : {GlintMethod::kZk16, GlintMethod::kExact}) {
     KernelConfig config = baseConfig();
     config.method = method;
-    const ShadedPixels off = shadePixels(testFrame(), config);
+    const ShadedPixels off = shadePixels(testBench(), testFrame(), config);
     config.count_cells = true;
-    expectSameBits(off, shadePixels(testFrame(), config), "counting");
+    expectSameBits(off, shadePixels(testBench(), testFrame(), config), "counting");
   }
 }
 
 TEST(Switches, ConeOfNoWidthIsAPoint) {
   KernelConfig config = baseConfig();
   config.count_cells = true;
-  const ShadedPixels off = shadePixels(testFrame(), config);
+  const ShadedPixels off = shadePixels(testBench(), testFrame(), config);
   config.light_cone = true;
-  const ShadedPixels on = shadePixels(testFrame(), config);
+  const ShadedPixels on = shadePixels(testBench(), testFrame(), config);
   EXPECT_EQ(on.cells, off.cells);
   // A lobe with a general matrix rounds otherwise than one with two roughnesses.
   for (std::size_t i = 0; i < on.radiance.size(); ++i)
@@ -63,16 +64,16 @@ TEST(Switches, SizeVariationOfZeroIsNone) {
   HandMadeFrame frame = testFrame();
   frame.material.glints.size_variation = 0;
   KernelConfig config = baseConfig();
-  const ShadedPixels on = shadePixels(frame, config);
+  const ShadedPixels on = shadePixels(testBench(), frame, config);
   config.size_variation = false;
-  expectSameBits(on, shadePixels(frame, config), "size variation");
+  expectSameBits(on, shadePixels(testBench(), frame, config), "size variation");
 }
 
 TEST(Switches, BlackAlbedoIsNoDiffuseTerm) {
   KernelConfig config = baseConfig();
-  const ShadedPixels off = shadePixels(testFrame(), config);
+  const ShadedPixels off = shadePixels(testBench(), testFrame(), config);
   config.diffuse = true;
-  expectSameBits(off, shadePixels(testFrame(), config), "diffuse");
+  expectSameBits(off, shadePixels(testBench(), testFrame(), config), "diffuse");
 }
 
 TEST(Switches, OneWhiteColourIsNoColour) {
@@ -80,9 +81,9 @@ TEST(Switches, OneWhiteColourIsNoColour) {
   frame.material.glints.palette_count = 1;
   frame.material.glints.palette[0] = {1, 1, 1, 0};
   KernelConfig config = baseConfig();
-  const ShadedPixels off = shadePixels(frame, config);
+  const ShadedPixels off = shadePixels(testBench(), frame, config);
   config.glint_colour = true;
-  const ShadedPixels on = shadePixels(frame, config);
+  const ShadedPixels on = shadePixels(testBench(), frame, config);
   // The colour enters as a sum of its own: a few units in the last place.
   for (std::size_t i = 0; i < on.radiance.size(); ++i)
     EXPECT_NEAR(on.radiance[i].y, off.radiance[i].y, 1e-5 * off.radiance[i].y) << i;
@@ -92,8 +93,9 @@ TEST(Switches, LightsAddUp) {
   HandMadeFrame both = testFrame(), first = both, second = both;
   first.lights.pop_back();
   second.lights.erase(second.lights.begin());
-  const ShadedPixels sum = shadePixels(both, baseConfig());
-  const ShadedPixels a = shadePixels(first, baseConfig()), b = shadePixels(second, baseConfig());
+  const ShadedPixels sum = shadePixels(testBench(), both, baseConfig());
+  const ShadedPixels a = shadePixels(testBench(), first, baseConfig()),
+                     b = shadePixels(testBench(), second, baseConfig());
   for (std::size_t i = 0; i < sum.radiance.size(); ++i)
     EXPECT_NEAR(sum.radiance[i].x, a.radiance[i].x + b.radiance[i].x,
                 1e-6 * sum.radiance[i].x + 1e-12);
@@ -162,7 +164,7 @@ TEST(Switches, EveryPairOfThemCompiles) {
     config.ka = level(7) ? 16 : 1 + static_cast<int>(run) * 5;
     config.width = kAllWidths[(level(8) ? 2 : 0) + (level(9) ? 1 : 0)];
     config.planes = PlaneMask::all();
-    EXPECT_NO_THROW(KernelBench::shared().cache.get("shade.cl", config)) << buildOptions(config);
+    EXPECT_NO_THROW(testBench().cache.get("shade.cl", config)) << buildOptions(config);
   }
 }
 
@@ -175,7 +177,7 @@ TEST(Switches, EverySmoothProgramCompiles) {
       config.light_cone = bits & 1;
       config.diffuse = bits & 2;
       config.planes = {Plane::kPixel, Plane::kFrame0, Plane::kFrame1};
-      EXPECT_NO_THROW(KernelBench::shared().cache.get("shade.cl", config)) << buildOptions(config);
+      EXPECT_NO_THROW(testBench().cache.get("shade.cl", config)) << buildOptions(config);
     }
 }
 

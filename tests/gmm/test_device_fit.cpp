@@ -11,6 +11,7 @@
 #include "host/mixture/device_mixture_fit.h"
 #include "host/mixture/mixture_error.h"
 #include "tests/filter/mixture_checks.h"
+#include "tests/shared_bench.h"
 
 namespace glintmark {
 namespace {
@@ -25,7 +26,7 @@ constexpr double kOneStepTolerance = 2e-4, kMeanTolerance = 1e-5;
 constexpr double kErrorTolerance = 0.02;
 
 NormalMixtures fitAt(int lanes, const NormalMap& map, const MixtureOptions& options = {}) {
-  KernelBench& bench = KernelBench::shared();
+  KernelBench& bench = testBench();
   return fitMixturesOnDevice(bench.device, bench.cache, lanes, map, options);
 }
 

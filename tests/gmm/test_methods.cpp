@@ -15,6 +15,7 @@
 #include "host/harness/pixel_harness.h"
 #include "host/harness/small_scenes.h"
 #include "host/report/metrics.h"
+#include "tests/shared_bench.h"
 
 namespace glintmark {
 namespace {
@@ -38,8 +39,7 @@ struct MappedFloor {
   Scene scene;
   View view = lookingDown(60, 3);
   ShadingOptions options;
-  std::shared_ptr<NormalTextures> textures =
-      std::make_shared<NormalTextures>(KernelBench::shared().device);
+  std::shared_ptr<NormalTextures> textures = std::make_shared<NormalTextures>(testBench().device);
 
   explicit MappedFloor(NormalMap map) : scene(mappedFloor(std::move(map))) {
     options.width_px = options.height_px = kSize_px;
@@ -50,14 +50,13 @@ struct MappedFloor {
     chosen.normal_method = method;
     chosen.lanes = lanes;
     chosen.half_texels = half;
-    FrameRenderer renderer(KernelBench::shared().device, scene, view, chosen, 1, textures);
+    FrameRenderer renderer(testBench().device, scene, view, chosen, 1, textures);
     renderer.prepare();
     renderer.shade();
     return renderer.readRadiance();
   }
   TruthImages truth() const {
-    return renderTruth(KernelBench::shared().device, scene, view, options, kTruthSpp, {}, 1,
-                       textures);
+    return renderTruth(testBench().device, scene, view, options, kTruthSpp, {}, 1, textures);
   }
 };
 
@@ -133,7 +132,7 @@ TEST(Mixtures, AreNearerToTheTruthThanOtherFilters) {
 TEST(Truth, BatchesAddUpToTheSameSamples) {
   MappedFloor floor(bumps(32));
   const auto render = [&](std::initializer_list<std::uint32_t> counts) {
-    TruthRenderer renderer(KernelBench::shared().device, floor.scene, floor.view, floor.options, 1,
+    TruthRenderer renderer(testBench().device, floor.scene, floor.view, floor.options, 1,
                            floor.textures);
     renderer.prepare();
     std::uint32_t done = 0;
@@ -148,7 +147,7 @@ TEST(Truth, BatchesAddUpToTheSameSamples) {
 
 TEST(Truth, StandardErrorCoversTheDistanceToAFinerTruth) {
   const MappedFloor floor(bumps(64));
-  Device& device = KernelBench::shared().device;
+  Device& device = testBench().device;
   const auto render = [&](int spp) {
     return renderTruth(device, floor.scene, floor.view, floor.options, spp, {}, 1, floor.textures);
   };

@@ -11,6 +11,7 @@
 #include "host/harness/area_light_harness.h"
 #include "host/harness/pixel_harness.h"
 #include "host/harness/small_scenes.h"
+#include "tests/shared_bench.h"
 
 namespace glintmark {
 namespace {
@@ -54,7 +55,7 @@ ShadingOptions smallFrame() {
 }
 
 Image shaded(const Scene& scene, const View& view, ShadingOptions options) {
-  FrameRenderer renderer(KernelBench::shared().device, scene, view, options, 2);
+  FrameRenderer renderer(testBench().device, scene, view, options, 2);
   renderer.prepare();
   renderer.shade();
   return renderer.readRadiance();
@@ -76,7 +77,7 @@ TEST(Minification, MultiScaleKeepsItsErrorAndTheOriginalDoesNot) {
     const double pixel = 3 * 2 * std::tan(0.1745) / kHeight_px;
     for (glm::dvec2& uv : scene.mesh.uvs) uv *= texels_per_px / 128 / pixel;
     const TruthImages truth =
-        renderTruth(KernelBench::shared().device, scene, view, smallFrame(), kTruthSpp, {}, 2);
+        renderTruth(testBench().device, scene, view, smallFrame(), kTruthSpp, {}, 2);
     const double exact_mean = meanOf(truth.mean);
     ASSERT_GT(exact_mean, 0.01);
     ShadingOptions options = smallFrame();
@@ -95,7 +96,7 @@ TEST(AreaLightFrame, SmoothFloorIsTheMonteCarloTruth) {
   const Scene scene = bumpyScene(false);
   const View view = lookingDown(30);
   const TruthImages truth =
-      renderTruth(KernelBench::shared().device, scene, view, smallFrame(), kTruthSpp, {}, 2);
+      renderTruth(testBench().device, scene, view, smallFrame(), kTruthSpp, {}, 2);
   const Image image = shaded(scene, view, smallFrame());
   EXPECT_NEAR(meanOf(image) / meanOf(truth.mean), 1, 0.03) << "the fit's error";
 }
@@ -107,7 +108,7 @@ TEST(AreaLightFrame, DiffuseIsTheMonteCarloTruthWithinItsStandardError) {
   scene.area_lights[0].vertices = rectangleVertices({0, 2, -2}, {0, -1, 1}, {0, 1, 0}, {2, 1});
   const View view = lookingDown(60);
   const TruthImages truth =
-      renderTruth(KernelBench::shared().device, scene, view, smallFrame(), kTruthSpp, {}, 2);
+      renderTruth(testBench().device, scene, view, smallFrame(), kTruthSpp, {}, 2);
   const Image image = shaded(scene, view, smallFrame());
   int outside = 0;
   for (std::size_t i = 0; i < image.pixels.size() / 4; ++i) {

@@ -7,6 +7,7 @@
 #include "host/fit/ltc_lobe.h"
 #include "host/harness/specular_cases.h"
 #include "host/reference/polygon_light.h"
+#include "tests/shared_bench.h"
 
 namespace glintmark {
 namespace {
@@ -18,7 +19,7 @@ constexpr double kFitTolerance = 0.06;
 TEST(Specular, LobeIsTheBrdfWithinTheFit) {
   const AreaLight light = specularQuad();
   const std::vector<SpecularCase> cases = specularCases(96, light, 0.05);
-  const std::vector<glm::vec3> values = shadeSpecular(light, cases, 16);
+  const std::vector<glm::vec3> values = shadeSpecular(testBench(), light, cases, 16);
   double sum = 0;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const SpecularCase& c = cases[i];

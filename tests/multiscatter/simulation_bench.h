@@ -1,7 +1,8 @@
-// One device for the tests of simulations.
+// Simulations on the device under test.
 #pragma once
 #include "host/harness/simulation_cases.h"
 #include "host/simulate/simulation.h"
+#include "tests/shared_bench.h"
 
 namespace glintmark {
 
@@ -9,18 +10,8 @@ namespace glintmark {
 // a chance of 6e-7 per comparison.
 inline constexpr double kDeviations = 5;
 
-struct Bench {
-  Device device;
-  ProgramCache cache{device};
-
-  static Bench& shared() {
-    static Bench bench;
-    return bench;
-  }
-};
-
 inline Simulation simulate(const SimulationSettings& settings, int lanes = 0) {
-  Bench& bench = Bench::shared();
+  KernelBench& bench = testBench();
   return Simulator(bench.device, bench.cache, lanes > 0 ? lanes : bench.device.info().default_lanes)
       .run(settings);
 }

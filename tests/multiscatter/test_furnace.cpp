@@ -6,6 +6,7 @@
 #include "host/frame/white_furnace.h"
 #include "host/reference/microfacet.h"
 #include "tests/fit/hemisphere_integral.h"
+#include "tests/shared_bench.h"
 
 namespace glintmark {
 namespace {
@@ -41,7 +42,7 @@ Material mirror(double alpha, Compensation compensation, float f0 = 1) {
 }
 
 TEST(WhiteFurnace, LambertAndEonLoseNothing) {
-  Device device;
+  Device& device = testBench().device;
   for (const DiffuseModel model : {DiffuseModel::kLambert, DiffuseModel::kEon})
     for (const double alpha : {0.0, 0.3, 1.0})
       for (const double mu : {0.01, 0.3, 1.0})
@@ -50,7 +51,7 @@ TEST(WhiteFurnace, LambertAndEonLoseNothing) {
 }
 
 TEST(WhiteFurnace, LobesNeverShineBrighterThanTheirLight) {
-  Device device;
+  Device& device = testBench().device;
   for (const DiffuseModel model : {DiffuseModel::kPublished, DiffuseModel::kRefit})
     for (const double alpha : {0.0, 0.08, 0.24, 0.5, 0.8, 1.0})
       for (const double masking : {0.0, 1.0})
@@ -77,7 +78,7 @@ TEST(WhiteFurnace, MirrorsAlbedoIsTheIntegralOverDirections) {
 }
 
 TEST(WhiteFurnace, AMirrorLosesWhatItsLobeLoses) {
-  Device device;
+  Device& device = testBench().device;
   for (const double alpha : {0.05, 0.24, 0.5, 1.0})
     for (const double mu : {0.05, 0.2, 0.6, 1.0})
       EXPECT_NEAR(whiteFurnace(device, mirror(alpha, Compensation::kOff), mu),
@@ -88,7 +89,7 @@ TEST(WhiteFurnace, AMirrorLosesWhatItsLobeLoses) {
 }
 
 TEST(WhiteFurnace, ACompensatedMirrorLosesNothing) {
-  Device device;
+  Device& device = testBench().device;
   for (const double alpha : {0.02, 0.05, 0.1, 0.24, 0.5, 0.77, 1.0})
     for (const double mu : {0.02, 0.05, 0.1, 0.2, 0.4, 0.7, 1.0})
       EXPECT_NEAR(whiteFurnace(device, mirror(alpha, Compensation::kLobe), mu), 1, kMirrorTolerance)
@@ -97,7 +98,7 @@ TEST(WhiteFurnace, ACompensatedMirrorLosesNothing) {
 
 // Simulated surfaces reflect up to 0.04 more by one bounce than Smith's lobe, and that is missing.
 TEST(WhiteFurnace, AMirrorByTheSimulatedTableLosesAtMostTheSimulationsExcess) {
-  Device device;
+  Device& device = testBench().device;
   for (const double alpha : {0.1, 0.5, 1.0})
     for (const double mu : {0.1, 0.4, 1.0}) {
       const double radiance = whiteFurnace(device, mirror(alpha, Compensation::kSimulated), mu);
@@ -107,7 +108,7 @@ TEST(WhiteFurnace, AMirrorByTheSimulatedTableLosesAtMostTheSimulationsExcess) {
 }
 
 TEST(WhiteFurnace, CompensationIsInProportionToReflectance) {
-  Device device;
+  Device& device = testBench().device;
   const auto gain = [&](float f0) {
     return whiteFurnace(device, mirror(0.8, Compensation::kLobe, f0), 0.7) /
                whiteFurnace(device, mirror(0.8, Compensation::kOff, f0), 0.7) -

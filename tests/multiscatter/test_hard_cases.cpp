@@ -9,6 +9,7 @@
 #include "host/fit/lobe_model.h"
 #include "host/harness/scatter_harness.h"
 #include "host/harness/tolerances.h"
+#include "tests/shared_bench.h"
 
 namespace glintmark {
 namespace {
@@ -20,8 +21,8 @@ constexpr double kLeastComparedCosine = 0.02;
 TEST(Masking, OfNoImportanceChangesNoBit) {
   const std::vector<DirectionPair> pairs = denseDirections();
   const Material material = roughMaterial(DiffuseModel::kRefit, 0.7, 0.8);
-  const auto without = probeScatter(pairs, material, 16),
-             with = probeScatter(pairs, material, 16, true);
+  const auto without = probeScatter(testBench(), pairs, material, 16),
+             with = probeScatter(testBench(), pairs, material, 16, true);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     ASSERT_EQ(without[i].single, with[i].single);
     ASSERT_EQ(without[i].multiple, with[i].multiple);
@@ -31,7 +32,8 @@ TEST(Masking, OfNoImportanceChangesNoBit) {
 TEST(Masking, DarkensGrazingLobes) {
   const std::vector<DirectionPair> grazing = {{directionAt(0.1, 0), directionAt(0.1, 2)}};
   const auto multiple = [&](double masking) {
-    return probeScatter(grazing, roughMaterial(DiffuseModel::kRefit, 1, 1, masking), 16)[0]
+    return probeScatter(testBench(), grazing, roughMaterial(DiffuseModel::kRefit, 1, 1, masking),
+                        16)[0]
         .multiple;
   };
   const double g = smithMasking(0.1, 1);
@@ -70,7 +72,7 @@ TEST(PublishedModel, IsTheBlogsCodeWhereThatIsNotNegativeAndTheFurnaceHasRoom) {
     for (const double albedo : {0.5, 1.0}) {
       const Material material = roughMaterial(DiffuseModel::kPublished, alpha, albedo);
       const LobeModel model(kPublishedCode, alpha);
-      const std::vector<ScatteredRadiance> probed = probeScatter(pairs, material, 16);
+      const std::vector<ScatteredRadiance> probed = probeScatter(testBench(), pairs, material, 16);
       for (std::size_t i = 0; i < pairs.size(); ++i) {
         const double in = pairs[i].light.z, out = pairs[i].view.z;
         if (out < kLeastComparedCosine) continue;

@@ -9,6 +9,7 @@
 #include "host/fit/multiscatter_data.h"
 #include "host/reference/microfacet.h"
 #include "host/simulate/simulation.h"
+#include "tests/shared_bench.h"
 
 namespace glintmark {
 namespace {
@@ -106,8 +107,7 @@ TEST(Eon, AlbedoIsTheIntegralOfItsBrdf) {
 }
 
 TEST(Eon, FittedRoughnessIsCloserToTheSimulationThanAlphaItself) {
-  Device device;
-  ProgramCache cache(device);
+  auto& [device, cache] = testBench();
   Simulator simulator(device, cache, device.info().default_lanes);
   for (const double alpha : {0.24, 0.62, 1.0}) {
     double fitted = 0, alpha_itself = 0;

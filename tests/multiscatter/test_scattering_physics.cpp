@@ -9,6 +9,7 @@
 
 #include "host/experiment/msbrdf/lobe_picture.h"
 #include "tests/multiscatter/simulation_bench.h"
+#include "tests/shared_bench.h"
 
 namespace glintmark {
 namespace {
@@ -83,7 +84,7 @@ class ReferenceCaster {
 
 // The same surface, other rays: shares of the rays that leave after one and after two bounces.
 TEST(ScatteringPhysics, EnergiesAreThoseOfACasterInDoublePrecision) {
-  Bench& bench = Bench::shared();
+  KernelBench& bench = testBench();
   for (const double incidence_deg : {30.0, 75.0}) {
     constexpr double kAlpha = 0.8;
     constexpr int kReferenceRays = 100000;
@@ -121,8 +122,8 @@ TEST(ScatteringPhysics, ObliqueLobeIsBeckmannsWithinCountingError) {
   std::vector<double> counted(kRows * kColumns), expected(kRows * kColumns);
   SimulationSettings s = mirror(kAlpha, kIncidence_deg, 1 << 12);
   s.orders = 1;
-  Simulator simulator(Bench::shared().device, Bench::shared().cache,
-                      Bench::shared().device.info().default_lanes);
+  Simulator simulator(testBench().device, testBench().cache,
+                      testBench().device.info().default_lanes);
   double rays = 0;
   for (s.seed = 1; s.seed <= 64; ++s.seed) {
     const Simulation one = simulator.run(s);
@@ -169,8 +170,8 @@ TEST(ScatteringPhysics, AnisotropicAzimuthsFollowTheSlopes) {
   s.last_bounce_leaves = true;
   constexpr std::size_t kBins = 32;
   double counted[kBins] = {}, rays = 0;
-  Simulator simulator(Bench::shared().device, Bench::shared().cache,
-                      Bench::shared().device.info().default_lanes);
+  Simulator simulator(testBench().device, testBench().cache,
+                      testBench().device.info().default_lanes);
   for (s.seed = 1; s.seed <= 64; ++s.seed) {
     const Simulation one = simulator.run(s);
     rays += static_cast<double>(one.rays_done);

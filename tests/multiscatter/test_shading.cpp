@@ -9,6 +9,7 @@
 #include "host/fit/multiscatter_data.h"
 #include "host/frame/frame_renderer.h"
 #include "host/scene/load_scene.h"
+#include "tests/shared_bench.h"
 
 namespace glintmark {
 namespace {
@@ -29,7 +30,7 @@ double reference(DiffuseModel model, double alpha, double albedo, const glm::dve
 }
 
 TEST(MultiscatterShading, KernelsAgreeWithDoublePrecision) {
-  Device device;
+  Device& device = testBench().device;
   for (const char* name : {"published", "refit", "eon"})
     for (const double alpha : {0.0, 0.08, 0.8, 1.0}) {
       SceneRequest request;
@@ -61,7 +62,7 @@ TEST(MultiscatterShading, KernelsAgreeWithDoublePrecision) {
 }
 
 TEST(MultiscatterShading, NothingIsNegativeOrNotANumberAtTheHorizon) {
-  Device device;
+  Device& device = testBench().device;
   for (const char* name : {"published", "refit", "eon"}) {
     SceneRequest request;
     request.scene = "rough_plane";
@@ -80,7 +81,7 @@ TEST(MultiscatterShading, NothingIsNegativeOrNotANumberAtTheHorizon) {
 }
 
 TEST(MultiscatterShading, WhatIsOffLeavesNoSwitchOn) {
-  Device device;
+  Device& device = testBench().device;
   SceneRequest request;
   request.scene = "rough_plane";
   request.overrides = {"material.clay.diffuse_model=lambert"};

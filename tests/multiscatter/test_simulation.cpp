@@ -9,6 +9,7 @@
 #include "host/simulate/simulation_file.h"
 #include "host/simulate/surface_spectrum.h"
 #include "tests/multiscatter/simulation_bench.h"
+#include "tests/shared_bench.h"
 
 namespace glintmark {
 namespace {
@@ -32,8 +33,8 @@ TEST(Simulation, FirstBounceIsBeckmannsWithinCountingError) {
     s.orders = 1;
     s.last_bounce_leaves = true;
     Simulation simulation{s, 0, std::vector<std::uint64_t>(HF_HISTOGRAM_WORDS)};
-    Simulator simulator(Bench::shared().device, Bench::shared().cache,
-                        Bench::shared().device.info().default_lanes);
+    Simulator simulator(testBench().device, testBench().cache,
+                        testBench().device.info().default_lanes);
     for (s.seed = 1; s.seed <= 64; ++s.seed) {
       const Simulation one = simulator.run(s);
       simulation.rays_done += one.rays_done;
@@ -114,7 +115,7 @@ TEST(Simulation, ErrorFallsWithTheRootOfTheRays) {
 TEST(Simulation, ResumesWhereItStopped) {
   SimulationSettings s;
   s.rays = kRaysPerSurface + 1000;
-  Bench& bench = Bench::shared();
+  KernelBench& bench = testBench();
   Simulator simulator(bench.device, bench.cache, bench.device.info().default_lanes);
   Simulation half{s, 0, {}};
   simulator.advance(half);

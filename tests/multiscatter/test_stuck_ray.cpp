@@ -2,13 +2,13 @@
 #include <gtest/gtest.h>
 
 #include "host/simulate/simulation.h"
+#include "tests/shared_bench.h"
 
 namespace glintmark {
 namespace {
 
 TEST(StuckRay, IsGivenUp) {
-  Device device;
-  ProgramCache cache(device);
+  auto& [device, cache] = testBench();
   Simulator simulator(device, cache, 16);
   // Found by a fit of 2^19 rays an entry: one ray of this surface stays in its cell.
   SimulationSettings settings;

@@ -4,9 +4,9 @@
 #include <stdlib.h>
 
 #include <filesystem>
-#include <fstream>
 #include <string>
 
+#include "host/core/atomic_file.h"
 #include "host/core/error.h"
 #include "host/ocl/compute.h"
 #include "host/ocl/device.h"
@@ -32,10 +32,6 @@ class TemporaryFolder {
  private:
   std::filesystem::path path_;
 };
-
-inline void writeFile(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream(path, std::ios::binary) << text;
-}
 
 /// The message of the Error that `act` throws, "" if it throws none.
 template <typename Act>

@@ -84,7 +84,7 @@ TEST(ImageIo, MissingFileIsNamed) {
 TEST(ImageIo, DamagedFilesAreErrors) {
   const TempFolder folder;
   writeExr(gradient(64, 64, 3), folder / "whole.exr");
-  const std::string bytes = readTextFile(folder / "whole.exr");
+  const std::string bytes = readFile(folder / "whole.exr");
   writeFile(folder / "half.exr", bytes.substr(0, bytes.size() / 2));
   writeFile(folder / "text.png", "this is not a picture");
   EXPECT_THROW(readImage(folder / "half.exr"), Error);
@@ -164,7 +164,7 @@ TEST(ImageIo, FullDiskKeepsTheOldFile) {
     EXPECT_THROW(writeExr(noise, folder / "a.exr"), Error);
     EXPECT_THROW(writePng(noise, folder / "a.png"), Error);
   }
-  EXPECT_EQ(readTextFile(folder / "a.json"), "old");
+  EXPECT_EQ(readFile(folder / "a.json"), "old");
   EXPECT_EQ(folder.entryCount(), 1u);
 }
 

@@ -23,7 +23,7 @@ TEST(RecordLog, EveryRecordIsOnDiskAtOnce) {
   RecordLog log = RecordLog::create(folder / "a.jsonl", sampleRun());
   appendOne(log, sampleRecord("a/b", "m", 1));
   // The log is still open; another reader sees two whole lines.
-  const std::string text = readTextFile(folder / "a.jsonl");
+  const std::string text = readFile(folder / "a.jsonl");
   EXPECT_EQ(std::ranges::count(text, '\n'), 2);
   EXPECT_TRUE(text.ends_with('\n'));
 }
@@ -79,11 +79,11 @@ TEST(RecordLog, CutAnywhereABatchIsThereWholeOrNotAtAll) {
   {
     RecordLog log = RecordLog::create(folder / "a.jsonl", sampleRun());
     log.append(first);
-    ends.push_back(readTextFile(folder / "a.jsonl").size());
+    ends.push_back(readFile(folder / "a.jsonl").size());
     log.append(second);
-    ends.push_back(readTextFile(folder / "a.jsonl").size());
+    ends.push_back(readFile(folder / "a.jsonl").size());
   }
-  const std::string whole = readTextFile(folder / "a.jsonl");
+  const std::string whole = readFile(folder / "a.jsonl");
   for (std::size_t size = 0; size <= whole.size(); ++size) {
     const std::string text = whole.substr(0, size);
     const std::size_t expected = size < ends[0] ? 0 : size < ends[1] ? 2 : 5;
@@ -96,7 +96,7 @@ TEST(RecordLog, CutAnywhereABatchIsThereWholeOrNotAtAll) {
       if (expected < 2) log.append(first);
       if (expected < 5) log.append(second);
     }
-    EXPECT_EQ(readTextFile(folder / "cut.jsonl"), whole) << size;
+    EXPECT_EQ(readFile(folder / "cut.jsonl"), whole) << size;
   }
 }
 
@@ -133,15 +133,15 @@ TEST(RecordLog, MissingOrEmptyLogStartsAfresh) {
   EXPECT_TRUE(RecordLog::resume(folder / "none.jsonl", sampleRun()).records().empty());
   writeFile(folder / "cut.jsonl", "{\"schema\":\"glint");
   EXPECT_TRUE(RecordLog::resume(folder / "cut.jsonl", sampleRun()).records().empty());
-  EXPECT_EQ(readTextFile(folder / "cut.jsonl"), headerLine(sampleRun()) + "\n");
+  EXPECT_EQ(readFile(folder / "cut.jsonl"), headerLine(sampleRun()) + "\n");
 }
 
 TEST(RecordLog, CreateKeepsAnOldLogUnderAnotherName) {
   const TempFolder folder;
   writeFile(folder / "a.jsonl", "old");
   { RecordLog::create(folder / "a.jsonl", sampleRun()); }
-  EXPECT_EQ(readTextFile(folder / "a.jsonl"), headerLine(sampleRun()) + "\n");
-  EXPECT_EQ(readTextFile(folder / "a.jsonl.old"), "old");
+  EXPECT_EQ(readFile(folder / "a.jsonl"), headerLine(sampleRun()) + "\n");
+  EXPECT_EQ(readFile(folder / "a.jsonl.old"), "old");
 }
 
 TEST(RecordLog, FullDiskIsAnError) {

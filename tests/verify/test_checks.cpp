@@ -10,8 +10,8 @@
 #include <set>
 
 #include "host/core/error.h"
-#include "host/harness/pixel_harness.h"
 #include "host/verify/check.h"
+#include "tests/shared_bench.h"
 
 namespace glintmark {
 namespace {
@@ -52,9 +52,9 @@ class Checks : public testing::TestWithParam<CheckCase> {};
 
 TEST_P(Checks, Pass) {
   const auto& [check, chosen_lanes] = GetParam();
-  const int lanes = chosen_lanes == kDeviceLanes ? KernelBench::shared().device.info().default_lanes
-                                                 : chosen_lanes;
-  const CheckResult result = runCheck(check, lanes);
+  const int lanes =
+      chosen_lanes == kDeviceLanes ? testBench().device.info().default_lanes : chosen_lanes;
+  const CheckResult result = runCheck(check, {testBench(), lanes});
   if (result.verdict == Verdict::kSkipped) GTEST_SKIP() << result.note;
   EXPECT_EQ(result.verdict, Verdict::kPass)
       << check.measure << ": " << result.worst << ", bound " << result.bound << "; " << result.note;
@@ -90,16 +90,19 @@ TEST(Finding, KeepsTheFirstConditionThatDoesNotHold) {
 }
 
 TEST(RunCheck, ErrorsAreFailuresAndSkipsAreNot) {
-  const auto verdictOf = [](std::function<Finding(int)> run) {
-    return runCheck({"name", "measure", std::move(run)}, 1);
+  const auto verdictOf = [](std::function<Finding(const CheckContext&)> run) {
+    return runCheck({"name", "measure", std::move(run)}, {testBench(), 1});
   };
-  const CheckResult thrown = verdictOf([](int) -> Finding { throw Error("it broke"); });
+  const CheckResult thrown =
+      verdictOf([](const CheckContext&) -> Finding { throw Error("it broke"); });
   EXPECT_EQ(thrown.verdict, Verdict::kFail);
   EXPECT_EQ(thrown.note, "it broke");
-  const CheckResult skipped = verdictOf([](int) { return Finding::skipped("no such device"); });
+  const CheckResult skipped =
+      verdictOf([](const CheckContext&) { return Finding::skipped("no such device"); });
   EXPECT_EQ(skipped.verdict, Verdict::kSkipped);
   EXPECT_EQ(skipped.note, "no such device");
-  EXPECT_THROW(verdictOf([](int) -> Finding { throw DeviceError("gone"); }), DeviceError);
+  EXPECT_THROW(verdictOf([](const CheckContext&) -> Finding { throw DeviceError("gone"); }),
+               DeviceError);
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ ReportPicture readReportPicture(const std::filesystem::path& file) {
   try {
     const Image image = readImage(file);
     if (isHeatmapFile(picture.name)) picture.cells = heatmapDistribution(image);
-    picture.png_bytes = readTextFile(file);
+    picture.png_bytes = readFile(file);
   } catch (const Error& error) {
     picture.problem = error.what();
   }

@@ -87,7 +87,7 @@ RecordLog RecordLog::create(const std::filesystem::path& path, const RunInfo& ru
 
 RecordLog RecordLog::resume(const std::filesystem::path& path, const RunInfo& run) {
   if (!std::filesystem::exists(path)) return create(path, run);
-  LogContent content = parseLog(readTextFile(path), path.string());
+  LogContent content = parseLog(readFile(path), path.string());
   if (!content.run) return create(path, run);
   requireSameSetup(*content.run, run, path.string());
 

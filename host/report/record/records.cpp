@@ -204,7 +204,7 @@ std::string toCsv(const std::vector<Record>& records) {
 }
 
 Results readResults(const std::filesystem::path& path) {
-  return fromJson(readTextFile(path), path.string());
+  return fromJson(readFile(path), path.string());
 }
 
 }  // namespace glintmark

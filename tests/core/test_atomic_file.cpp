@@ -1,0 +1,74 @@
+// Whole files: what is written is what is read, and what fails leaves nothing behind.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <iterator>
+
+#include "host/core/atomic_file.h"
+#include "host/core/error.h"
+
+namespace glintmark {
+namespace {
+
+namespace fs = std::filesystem;
+
+class AtomicFiles : public testing::Test {
+ protected:
+  AtomicFiles()
+      : folder_(fs::temp_directory_path() / ("glintmark-files-" + std::to_string(getpid()))) {
+    fs::create_directories(folder_);
+  }
+  ~AtomicFiles() override { fs::remove_all(folder_); }
+
+  std::ptrdiff_t filesInFolder() const {
+    return std::distance(fs::directory_iterator(folder_), fs::directory_iterator());
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(AtomicFiles, AreReadAsTheyWereWritten) {
+  std::string bytes;
+  for (int i = 0; i < 300000; ++i) bytes += static_cast<char>(i % 251);
+  for (const std::size_t size :
+       {std::size_t{0}, std::size_t{1}, std::size_t{65535}, std::size_t{65536}, bytes.size()}) {
+    writeFile(folder_ / "a", std::string_view(bytes).substr(0, size));
+    EXPECT_EQ(readFile(folder_ / "a"), bytes.substr(0, size)) << size;
+  }
+  EXPECT_EQ(filesInFolder(), 1);
+}
+
+TEST_F(AtomicFiles, PiecesFollowEachOther) {
+  writeFile(folder_ / "a", {"head\n", "", "body"}, Durability::kUnsynced);
+  EXPECT_EQ(readFile(folder_ / "a"), "head\nbody");
+}
+
+TEST_F(AtomicFiles, FilesWithoutASizeAreReadWhole) {
+  EXPECT_EQ(fs::file_size("/proc/self/status"), 0u);
+  EXPECT_NE(readFile("/proc/self/status").find("\nPid:"), std::string::npos);
+}
+
+TEST_F(AtomicFiles, WhatCannotBeReadIsNamed) {
+  for (const fs::path& path : {folder_, folder_ / "gone"}) {
+    try {
+      readFile(path);
+      ADD_FAILURE() << path << " was read";
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("cannot read " + path.string()), std::string::npos);
+    }
+  }
+}
+
+TEST_F(AtomicFiles, WhatFailsLeavesTheOldFileAndNothingElse) {
+  writeFile(folder_ / "a", "old");
+  { const AtomicFile never_committed(folder_ / "a"); }
+  EXPECT_EQ(readFile(folder_ / "a"), "old");
+  fs::create_directory(folder_ / "b");
+  EXPECT_THROW(writeFile(folder_ / "b", "new"), Error);
+  EXPECT_THROW(writeFile(folder_ / "gone" / "a", "new"), Error);
+  EXPECT_EQ(filesInFolder(), 2);
+}
+
+}  // namespace
+}  // namespace glintmark
