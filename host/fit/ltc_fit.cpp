@@ -29,8 +29,9 @@ constexpr double kFirstColumn = 0.2;
 constexpr LtcSampleCounts kAlbedoSamples = {
     .lobe_radial = 128, .lobe_azimuth = 48, .hemisphere_radial = 96, .hemisphere_azimuth = 64};
 
-// The last digits are the cubature's anyway.
-constexpr MinimizeLimits kLimits = {.iterations = 50, .least_gain = 1e-8};
+// The last digits are the cubature's anyway. A quarter of a lobe's width is as far as its slope
+// tells where to go.
+constexpr MinimizeLimits kLimits = {.iterations = 50, .least_gain = 1e-7, .unit = 0.25};
 
 using Parameters = std::array<double, 4>;
 

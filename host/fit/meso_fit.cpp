@@ -52,7 +52,7 @@ std::array<double, 4> fitJoin(const MesoGrid& grid) {
     return sum;
   };
   // The sum of squares is small and flat: the start is near what flat lobes need.
-  return minimize<4>(sum_of_squares, {4, 5, 0.5, 0}, {.iterations = 1000, .least_gain = 1e-13}).at;
+  return minimize<4>(sum_of_squares, {4, 5, 0.5, 0}, {.iterations = 1000, .least_gain = 1e-9}).at;
 }
 
 double rootOfLength(double length) {

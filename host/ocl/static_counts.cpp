@@ -1,16 +1,10 @@
 #include "host/ocl/static_counts.h"
 
 #include <fmt/format.h>
-#include <stdlib.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
-#include <cstdio>
 #include <cstring>
-#include <filesystem>
-#include <system_error>
 
 namespace glintmark {
 namespace {
@@ -29,32 +23,6 @@ std::optional<std::string> sharedObject(const std::string& archive, const std::s
   return archive.substr(content, size);
 }
 
-// Output of `objdump` on `object`; nothing if it cannot be run.
-std::optional<std::string> disassemble(const std::string& object) {
-  std::error_code error;
-  std::string path =
-      (std::filesystem::temp_directory_path(error) / "glintmark-kernel-XXXXXX").string();
-  const int file = error ? -1 : mkstemp(path.data());
-  if (file < 0) return std::nullopt;
-  const bool written =
-      ::write(file, object.data(), object.size()) == static_cast<ssize_t>(object.size());
-  ::close(file);
-
-  std::string text;
-  int status = -1;
-  if (FILE* pipe =
-          written ? popen(("objdump -d --no-show-raw-insn '" + path + "' 2>/dev/null").c_str(), "r")
-                  : nullptr) {
-    std::array<char, 1 << 16> part;
-    for (std::size_t n; (n = fread(part.data(), 1, part.size(), pipe)) > 0;)
-      text.append(part.data(), n);
-    status = pclose(pipe);
-  }
-  ::unlink(path.c_str());
-  if (status != 0) return std::nullopt;
-  return text;
-}
-
 // Hashing a grid cell multiplies integers more often than all address arithmetic around it, so the
 // loop over cells is the tightest one with most of the multiplications.
 const LoopCounts* findCellLoop(const std::vector<LoopCounts>& loops) {
@@ -70,10 +38,7 @@ const LoopCounts* findCellLoop(const std::vector<LoopCounts>& loops) {
 
 }  // namespace
 
-std::optional<StaticCounts> countInstructions(const std::string& disassembly,
-                                              const std::string& function) {
-  const std::vector<Instruction> instructions = parseFunction(disassembly, function);
-  if (instructions.empty()) return std::nullopt;
+StaticCounts countInstructions(const std::vector<Instruction>& instructions) {
   StaticCounts counts;
   counts.kernel_instructions = instructions.size();
   counts.vector_512 =
@@ -87,9 +52,12 @@ std::optional<StaticCounts> countInstructions(const std::string& disassembly,
 std::optional<StaticCounts> staticCounts(const Program& program, const std::string& kernel_name) {
   const std::optional<std::string> object = sharedObject(program.binary(), kernel_name);
   if (!object) return std::nullopt;
-  const std::optional<std::string> text = disassemble(*object);
-  if (!text) return std::nullopt;
-  return countInstructions(*text, fmt::format("_pocl_kernel_{}_workgroup", kernel_name));
+  const std::optional<FunctionCode> code =
+      findFunction(*object, fmt::format("_pocl_kernel_{}_workgroup", kernel_name).c_str());
+  if (!code) return std::nullopt;
+  const std::optional<std::vector<Instruction>> instructions = disassemble(*code);
+  if (!instructions) return std::nullopt;
+  return countInstructions(*instructions);
 }
 
 }  // namespace glintmark

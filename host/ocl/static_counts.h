@@ -19,12 +19,11 @@ struct StaticCounts {
 
 /// Counts of `kernel_name`, work-item loop included, padding excluded. The code is PoCL's version
 /// for any local size, taken from the program's binary, so that the counts do not depend on what
-/// was launched. Nothing if the device is not PoCL on x86-64 or objdump is not installed.
+/// was launched. Nothing if the device is not PoCL on x86-64, or the disassembler does not know one
+/// of the instructions.
 std::optional<StaticCounts> staticCounts(const Program& program, const std::string& kernel_name);
 
-/// Counts of one function in the output of `objdump -d --no-show-raw-insn`; nothing if it is not
-/// in there.
-std::optional<StaticCounts> countInstructions(const std::string& disassembly,
-                                              const std::string& function);
+/// Counts of one function's instructions.
+StaticCounts countInstructions(const std::vector<Instruction>& instructions);
 
 }  // namespace glintmark

@@ -2,8 +2,10 @@
 // published table where it is at hand.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <vector>
 
 #include "host/core/error.h"
 #include "host/fit/ltc_error.h"
@@ -43,6 +45,31 @@ TEST(Minimize, FindsTheBottomOfAValley) {
       minimize<2>(rosenbrock, {-1.2, 1}, {.iterations = 200, .least_gain = 1e-15});
   EXPECT_NEAR(found.at[0], 1, 1e-5);
   EXPECT_NEAR(found.at[1], 1, 1e-5);
+}
+
+TEST(Minimize, NeverWorseThanTheStart) {
+  // A gradient that points the wrong way: no step gains anything.
+  const auto misled = [](const std::array<double, 1>& x, std::array<double, 1>& gradient) {
+    gradient = {-2 * x[0]};
+    return x[0] * x[0];
+  };
+  const Minimum<1> found = minimize<1>(misled, {0.5});
+  EXPECT_EQ(found.at[0], 0.5);
+  EXPECT_EQ(found.value, 0.25);
+}
+
+TEST(Minimize, TheFirstStepIsNoLongerThanTheUnit) {
+  std::vector<double> visited;
+  const auto parabola = [&](const std::array<double, 1>& x, std::array<double, 1>& gradient) {
+    visited.push_back(x[0]);
+    gradient = {20 * x[0]};
+    return 10 * x[0] * x[0];
+  };
+  const Minimum<1> found = minimize<1>(parabola, {3}, {.unit = 0.1});
+  EXPECT_NEAR(found.at[0], 0, 1e-4);
+  const auto step = std::ranges::find_if(visited, [](double x) { return x != 3; });
+  ASSERT_NE(step, visited.end());
+  EXPECT_NEAR(*step, 2.9, 1e-9);
 }
 
 TEST(LtcObjective, DerivativesAreThoseOfTheValue) {

@@ -200,7 +200,7 @@ TEST(Specialisation, NeighboursEffectsLeaveNoInstruction) {
     return staticCounts(cache.get("shade.cl", config), "shade");
   };
   const auto alone = counted({}, "smooth");
-  if (!alone) GTEST_SKIP() << "the device does not give its machine code, or objdump is missing";
+  if (!alone) GTEST_SKIP() << "the device does not give its machine code";
   const EffectSet surfaces = kEverything.without({Effect::kLtc, Effect::kMultiscale});
   // Other planes stand before those that are read: their places are other constants.
   const auto expectAlike = [&](EffectSet set, const char* name) {

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <sstream>
+#include <utility>
 
 #include "host/core/error.h"
 #include "host/report/picture/colour_map.h"
@@ -109,10 +111,48 @@ TEST(Heatmap, PictureKeepsPixelsAndAddsALegend) {
   // The colour bar runs from the first to the last colour in some row of the legend.
   bool bar_found = false;
   for (int y = 50; y < picture.height; ++y) {
-    bar_found |=
-        colourAt(picture, 4, y) == falseColour(0) && colourAt(picture, 395, y) == falseColour(1);
+    int left = 0, right = picture.width - 1;
+    while (left < right && colourAt(picture, left, y) == kPaper) ++left;
+    while (left < right && colourAt(picture, right, y) == kPaper) --right;
+    bar_found |= right - left > 350 && colourAt(picture, left, y) == falseColour(0) &&
+                 colourAt(picture, right, y) == falseColour(1);
   }
   EXPECT_TRUE(bar_found);
+}
+
+bool hasBlock(const Image& picture, int from_y, const DisplayColour& colour) {
+  for (int y = from_y; y + 5 < picture.height; ++y)
+    for (int x = 0; x + 5 < picture.width; ++x)
+      if (colourAt(picture, x, y) == colour && colourAt(picture, x + 5, y + 5) == colour)
+        return true;
+  return false;
+}
+
+TEST(Heatmap, LegendNamesTheGreysThatThePictureHas) {
+  Image cells(400, 50, 1);
+  for (float& count : cells.pixels) count = 64;
+  const auto swatches = [&](float value) {
+    cells.at(0, 0)[0] = value;
+    const Image greys = heatmapColours(cellsOf(2, 1, {0, -1}), HeatmapRange{});
+    const Image picture = heatmapPicture(cells, {.title = "t"});
+    return std::pair{hasBlock(picture, 50, colourAt(greys, 0, 0)),
+                     hasBlock(picture, 50, colourAt(greys, 1, 0))};
+  };
+  EXPECT_EQ(swatches(64), (std::pair{false, false}));
+  EXPECT_EQ(swatches(0), (std::pair{true, false}));
+  EXPECT_EQ(swatches(-1), (std::pair{false, true}));
+}
+
+// Legends of earlier versions were 43 pixels high at this width, their bar 4 pixels from the edge.
+TEST(Heatmap, EarlierPicturesAreReadBackToo) {
+  const Image cells = cellsOf(2, 1, {8, 64});
+  Image picture(330, 1 + 43, 3);
+  fillRect(picture, 0, 0, picture.width, picture.height, kPaper);
+  const Image colours = heatmapColours(cells, HeatmapRange{});
+  std::ranges::copy(colours.at(0, 0), picture.at(0, 0).begin());
+  std::ranges::copy(colours.at(1, 0), picture.at(1, 0).begin());
+  for (int x = 0; x < 322; ++x) fillRect(picture, 4 + x, 28, 1, 10, falseColour(x / 321.0));
+  EXPECT_EQ(heatmapDistribution(picture).pixels_by_count, cellDistribution(cells).pixels_by_count);
 }
 
 TEST(Heatmap, TinyImagesStillGetALegend) {
@@ -129,18 +169,6 @@ TEST(Heatmap, StripPutsPicturesSideBySide) {
   EXPECT_EQ(colourAt(strip, 2, 0), falseColour(1));
   EXPECT_THROW(heatmapStrip(cells, {"90"}, HeatmapScale::kFixed, "plane"), Error);
   EXPECT_THROW(heatmapStrip({}, {}, HeatmapScale::kFixed, "plane"), Error);
-}
-
-TEST(TextDrawing, GlyphPixelsAndClipping) {
-  const DisplayColour ink = {1, 0, 0};
-  Image image(8, 8, 3);
-  drawText(image, 0, 0, "1", 1, ink);
-  EXPECT_EQ(colourAt(image, 2, 0), ink);  // the stem
-  EXPECT_NE(colourAt(image, 0, 0), ink);
-  EXPECT_EQ(colourAt(image, 2, 6), ink);   // the foot
-  drawText(image, -3, -3, "888", 3, ink);  // partly outside: must not crash
-  EXPECT_EQ(textWidth("", 2), 0);
-  EXPECT_EQ(textWidth("ab", 2), 22);
 }
 
 }  // namespace

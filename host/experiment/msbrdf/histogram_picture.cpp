@@ -15,7 +15,6 @@ namespace {
 
 constexpr double kBrightestRays = 200;
 constexpr std::size_t kWidestBin = 8;
-constexpr DisplayColour kPaper = {1, 1, 1}, kInk = {0.1f, 0.1f, 0.1f};
 
 // Energy per solid angle [1 / sr] of one order and side, in bins of `width` x `width` cells.
 struct Density {
@@ -77,7 +76,10 @@ std::string title(const SimulationSettings& s) {
 }  // namespace
 
 Image histogramPicture(const Simulation& simulation) {
-  constexpr int kMargin_px = 8, kLine_px = 22, kBarWidth_px = 120, kBarHeight_px = 9;
+  constexpr int kMargin_px = 12, kHeading_px = 32, kLegend_px = 60, kHeader_px = 72;
+  constexpr int kBarWidth_px = 120, kBarHeight_px = 10, kGap_px = 8;
+  constexpr TextStyle kHeading{.size_px = 20, .weight = TextWeight::kBold};
+  constexpr TextStyle kLegend{.size_px = 13, .colour = kSoftInk};
   std::vector<LobeDisc> discs;
   const int sides = simulation.settings.kind == SurfaceKind::kDielectric ? 2 : 1;
   for (int side = 0; side < sides; ++side)
@@ -86,24 +88,22 @@ Image histogramPicture(const Simulation& simulation) {
   const Image lobes = lobePicture(discs, simulation.settings.orders);
 
   const std::string heading = title(simulation.settings);
-  const std::string from = "0", to = "brightest   rings: 30, 60 degrees   cross: the light";
-  const int legend_px = textWidth(from, 1) + kBarWidth_px + textWidth(to, 1) + 12;
-  const int header_px = kMargin_px + 2 * kLine_px;
-  Image image(
-      std::max({lobes.width, textWidth(heading, 2) + 2 * kMargin_px, legend_px + 2 * kMargin_px}),
-      lobes.height + header_px, 3);
+  const std::string from = "0", to = "brightest      rings: 30, 60 degrees      cross: the light";
+  const int bar_x = kMargin_px + textWidth(from, kLegend) + kGap_px;
+  const int to_x = bar_x + kBarWidth_px + kGap_px;
+  Image image(std::max({lobes.width, textWidth(heading, kHeading) + 2 * kMargin_px,
+                        to_x + textWidth(to, kLegend) + kMargin_px}),
+              lobes.height + kHeader_px, 3);
   fillRect(image, 0, 0, image.width, image.height, kPaper);
-  drawText(image, kMargin_px, kMargin_px, heading, 2, kInk);
-  const int y = kMargin_px + kLine_px;
-  int x = kMargin_px;
-  drawText(image, x, y + 1, from, 1, kInk);
-  x += textWidth(from, 1) + 6;
+  drawText(image, kMargin_px, kHeading_px, heading, kHeading);
+  drawText(image, kMargin_px, kLegend_px, from, kLegend);
   for (int i = 0; i < kBarWidth_px; ++i)
-    fillRect(image, x + i, y, 1, kBarHeight_px, falseColour((i + 0.5) / kBarWidth_px));
-  drawText(image, x + kBarWidth_px + 6, y + 1, to, 1, kInk);
+    fillRect(image, bar_x + i, kLegend_px - kBarHeight_px, 1, kBarHeight_px,
+             falseColour((i + 0.5) / kBarWidth_px));
+  drawText(image, to_x, kLegend_px, to, kLegend);
   for (int row = 0; row < lobes.height; ++row)
     for (int column = 0; column < lobes.width; ++column)
-      std::ranges::copy(lobes.at(column, row), image.at(column, row + header_px).begin());
+      std::ranges::copy(lobes.at(column, row), image.at(column, row + kHeader_px).begin());
   return image;
 }
 

@@ -12,9 +12,9 @@
 namespace glintmark {
 namespace {
 
-constexpr int kRadius_px = 96, kMargin_px = 8, kCaption_px = 22;
+constexpr int kRadius_px = 96, kMargin_px = 12, kCaption_px = 44;
 constexpr int kTile_px = 2 * (kRadius_px + kMargin_px);
-constexpr DisplayColour kPaper = {1, 1, 1}, kInk = {0.1f, 0.1f, 0.1f};
+constexpr TextStyle kCaption{.size_px = 14}, kNote{.size_px = 13, .colour = kSoftInk};
 
 void drawDisc(Image& image, int left, int top, const LobeDisc& disc) {
   const int side = 2 * kRadius_px;
@@ -76,12 +76,12 @@ Image lobePicture(const std::vector<LobeDisc>& discs, int columns) {
   for (int i = 0; i < count; ++i) {
     const int left = i % columns * kTile_px, top = i / columns * (kTile_px + kCaption_px);
     drawDisc(image, left + kMargin_px, top + kMargin_px, discs[static_cast<std::size_t>(i)]);
-    const std::string& caption = discs[static_cast<std::size_t>(i)].caption;
-    drawText(image, left + (kTile_px - textWidth(caption, 1)) / 2, top + kTile_px, caption, 1,
-             kInk);
     const LobeDisc& disc = discs[static_cast<std::size_t>(i)];
-    drawText(image, left + (kTile_px - textWidth(disc.note, 1)) / 2, top + kTile_px + 10, disc.note,
-             1, kInk);
+    const int middle = left + kTile_px / 2, bottom = top + kTile_px;
+    drawText(image, middle, bottom + 10, disc.caption, fitted(kCaption, disc.caption, kTile_px - 8),
+             TextAlign::kCentre);
+    drawText(image, middle, bottom + 28, disc.note, fitted(kNote, disc.note, kTile_px - 8),
+             TextAlign::kCentre);
     if (disc.compass) drawCompass(image, left + kMargin_px, top + kMargin_px, disc);
   }
   return image;

@@ -206,12 +206,12 @@
 
   // A strip of equally wide pictures below their names: any two of them on one canvas, parted where
   // the range stands.
-  const kNameHeight_px = 12;
   const makeComparable = (figure) => {
     const image = figure.querySelector("img");
     const names = figure.dataset.panels.split(";");
     const width = image ? image.naturalWidth / names.length : 0;
-    const height = image ? image.naturalHeight - kNameHeight_px : 0;
+    const nameHeight_px = Number(figure.dataset.nameHeight);
+    const height = image ? image.naturalHeight - nameHeight_px : 0;
     if (names.length < 2 || width < 1 || width !== Math.floor(width) || height < 1) return;
     const canvas = document.createElement("canvas");
     canvas.width = width;
@@ -236,7 +236,7 @@
       const edge = Math.round((width * range.value) / 100);
       const part = (panel, from, to) => {
         if (to > from)
-          context.drawImage(image, panel * width + from, kNameHeight_px, to - from, height, from, 0, to - from, height);
+          context.drawImage(image, panel * width + from, nameHeight_px, to - from, height, from, 0, to - from, height);
       };
       part(Number(left.value), 0, edge);
       part(Number(right.value), edge, width);

@@ -11,6 +11,7 @@
 #include "host/report/page/html_text.h"
 #include "host/report/picture/heatmap.h"
 #include "host/report/picture/image_io.h"
+#include "host/report/picture/picture_strip.h"
 #include "host/report/record/case_name.h"
 #include "host/report/record/case_records.h"
 #include "host/report/record/text_table.h"
@@ -57,6 +58,7 @@ ReportPicture readReportPicture(const std::filesystem::path& file) {
   try {
     const Image image = readImage(file);
     if (isHeatmapFile(picture.name)) picture.cells = heatmapDistribution(image);
+    picture.name_height_px = stripNameHeight(image);
     picture.png_bytes = readFile(file);
   } catch (const Error& error) {
     picture.problem = error.what();
@@ -123,9 +125,11 @@ std::string PictureShelf::strips(const PictureGroup& group, const std::string& t
   for (const auto& [view, methods] : methodsByView(records)) {
     const std::string file = table + "_" + view.fileStem() + ".png";
     if (group.optional && !has(file)) continue;
+    const auto found = std::ranges::find(pictures_, file, &ReportPicture::name);
     html += figure(file, view.text(),
-                   fmt::format(" class=\"strip\" data-panels=\"{}\"",
-                               escapeHtml(stripPanels(group, methods))));
+                   fmt::format(" class=\"strip\" data-panels=\"{}\" data-name-height=\"{}\"",
+                               escapeHtml(stripPanels(group, methods)),
+                               found == pictures_.end() ? 0 : found->name_height_px));
   }
   return html.empty() ? "" : "<div class=\"strips\">\n" + html + "</div>\n";
 }

@@ -15,6 +15,7 @@ struct ReportPicture {
   std::string png_bytes;   // the file as it is; empty if it could not be read
   std::string problem;     // why not
   CellDistribution cells;  // read back from a heatmap's colours; glint_px is 0 for other pictures
+  int name_height_px = 0;  // of the names above a strip
 };
 
 /// Reads a picture; what is wrong with it goes to `problem`.

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <span>
 #include <unordered_map>
 
 #include "host/core/error.h"
+#include "host/report/picture/colour_scale.h"
 #include "host/report/picture/text_drawing.h"
 
 namespace glintmark {
@@ -18,17 +20,24 @@ constexpr std::string_view kFilePrefix = "cells_";
 
 constexpr DisplayColour kUncovered = {0.16f, 0.16f, 0.16f};
 constexpr DisplayColour kUnlit = {0.35f, 0.35f, 0.35f};
-constexpr DisplayColour kPaper = {1, 1, 1};
-constexpr DisplayColour kInk = {0, 0, 0};
-constexpr int kTicks = 8;  // intervals on the colour bar: 8, 15, 22, ... 64 on the fixed scale
+constexpr int kIntervals = 8;  // on the colour bar: 8, 15, 22, ... 64 on the fixed scale
 
-// Sizes in pixels at text scale 1; everything grows with the text.
-constexpr int kMargin = 4;
-constexpr int kLine = kGlyphHeightPx + 4;
-constexpr int kBarHeight = 10;
-constexpr int kTickHeight = 3;
-constexpr int kLegendHeight = kMargin + 2 * kLine + kBarHeight + kTickHeight + 2 + kLine;
 constexpr int kLegendMinWidth = 320;
+
+// Where the parts of a legend are, in pixels below its top edge, for text of one size.
+struct LegendLayout {
+  int text, title_size, margin;
+  int title, statistics, bar, height;
+
+  explicit LegendLayout(int width_px)
+      : text(textSizeFor(width_px)),
+        title_size(text * 5 / 4),
+        margin(text),
+        title(text / 2 + title_size),
+        statistics(title + text * 3 / 2),
+        bar(statistics + text * 4 / 5),
+        height(bar + colourScaleHeight(text) + text * 4 / 5) {}
+};
 
 // A display colour as a PNG stores it.
 std::uint32_t packed(std::span<const float> colour) {
@@ -36,10 +45,6 @@ std::uint32_t packed(std::span<const float> colour) {
   for (int c = 0; c < 3; ++c)
     bytes = bytes << 8 | static_cast<std::uint32_t>(std::lround(255 * colour[c]));
   return bytes;
-}
-
-int textScale(int width_px) {
-  return std::clamp(width_px / 640, 1, 3);
 }
 
 Image blankCanvas(int width, int height) {
@@ -56,38 +61,58 @@ void paste(const Image& source, Image& target, int x0, int y0) {
   }
 }
 
-std::string tickLabel(double value) {
-  return value == std::floor(value) ? fmt::format("{:.0f}", value) : fmt::format("{:.1f}", value);
+// Greys say why a pixel has no count; named are those that the picture has.
+struct Grey {
+  const char* name;
+  DisplayColour colour;
+  bool present = false;
+};
+using Greys = std::array<Grey, 2>;
+
+Greys greysOf(const std::vector<const Image*>& pictures) {
+  Greys greys = {{{"unlit", kUnlit}, {"no glints", kUncovered}}};
+  for (const Image* cells : pictures)
+    for (const float count : cells->pixels) {
+      greys[0].present |= count == 0;
+      greys[1].present |= count < 0;
+    }
+  return greys;
 }
 
-// Two lines of text, the colour bar, ticks with labels; its top edge at y.
+// From right to left, up to `x`; where there is no room for it, a grey stays unnamed.
+void drawGreys(Image& canvas, int first_x, int baseline_y, const Greys& greys, int size_px) {
+  const TextStyle style{.size_px = size_px, .colour = kSoftInk};
+  const int side = size_px * 3 / 4, gap = size_px / 2;
+  int x = canvas.width - size_px;
+  for (const Grey& grey : greys) {
+    if (!grey.present) continue;
+    const int width = side + gap + textWidth(grey.name, style);
+    if (x - width < first_x) return;
+    drawText(canvas, x, baseline_y, grey.name, style, TextAlign::kRight);
+    x -= width;
+    fillRect(canvas, x, baseline_y - side, side, side, grey.colour);
+    x -= 2 * gap;
+  }
+}
+
+// Title, statistics, greys and the colour bar; its top edge at y.
 void drawLegend(Image& canvas, int y, const HeatmapRange& range, const std::string& title,
-                const std::string& statistics) {
-  const int scale = textScale(canvas.width), margin = kMargin * scale;
-  const int width = canvas.width - 2 * margin;
-  y += margin;
-  drawText(canvas, margin, y, title, scale, kInk);
-  y += kLine * scale;
-  drawText(canvas, margin, y, statistics, scale, kInk);
-  y += kLine * scale;
-  for (int x = 0; x < width; ++x) {
-    fillRect(canvas, margin + x, y, 1, kBarHeight * scale, falseColour(x / (width - 1.0)));
-  }
-  y += kBarHeight * scale;
-  for (int tick = 0; tick <= kTicks; ++tick) {
-    const double t = static_cast<double>(tick) / kTicks;
-    const int x = margin + static_cast<int>(std::lround(t * (width - scale)));
-    fillRect(canvas, x, y, scale, kTickHeight * scale, kInk);
-    const std::string label = tickLabel(std::lerp(range.low, range.high, t));
-    const int label_width = textWidth(label, scale);
-    const int label_x = std::clamp(x - label_width / 2, margin, margin + width - label_width);
-    drawText(canvas, label_x, y + (kTickHeight + 2) * scale, label, scale, kInk);
-  }
+                const std::string& statistics, const Greys& greys) {
+  const LegendLayout layout(canvas.width);
+  const int width = canvas.width - 2 * layout.margin;
+  const TextStyle bold{.size_px = layout.title_size, .weight = TextWeight::kBold};
+  drawText(canvas, layout.margin, y + layout.title, title, fitted(bold, title, width));
+  const TextStyle soft = fitted({.size_px = layout.text, .colour = kSoftInk}, statistics, width);
+  drawText(canvas, layout.margin, y + layout.statistics, statistics, soft);
+  drawGreys(canvas, layout.margin + textWidth(statistics, soft) + layout.text,
+            y + layout.statistics, greys, layout.text);
+  drawColourScale(canvas, layout.margin, y + layout.bar, width,
+                  {.low = range.low, .high = range.high, .intervals = kIntervals}, layout.text);
 }
 
 std::string statisticsText(const CellDistribution& distribution, std::size_t guard_hits) {
   if (distribution.glint_px == 0) return "no glint pixels";
-  return fmt::format("min {:.0f}  mean {:.2f}  max {:.0f}  guard hits {}", distribution.min,
+  return fmt::format("min {:.0f}    mean {:.2f}    max {:.0f}    guard hits {}", distribution.min,
                      distribution.mean, distribution.max, guard_hits);
 }
 
@@ -118,10 +143,10 @@ Image heatmapPicture(const Image& cells, const HeatmapOptions& options) {
   const CellDistribution distribution = cellDistribution(cells);
   const HeatmapRange range = heatmapRange(options.scale, distribution);
   const int width = std::max(cells.width, kLegendMinWidth);
-  Image canvas = blankCanvas(width, cells.height + kLegendHeight * textScale(width));
+  Image canvas = blankCanvas(width, cells.height + LegendLayout(width).height);
   paste(heatmapColours(cells, range), canvas, 0, 0);
   drawLegend(canvas, cells.height, range, options.title,
-             statisticsText(distribution, options.guard_hits));
+             statisticsText(distribution, options.guard_hits), greysOf({&cells}));
   return canvas;
 }
 
@@ -131,8 +156,10 @@ CellDistribution heatmapDistribution(const Image& picture) {
   std::unordered_map<std::uint32_t, float> counts;
   for (double n = range.low; n <= range.high; ++n)
     counts[packed(falseColour((n - range.low) / (range.high - range.low)))] = static_cast<float>(n);
-  const int height = picture.height - kLegendHeight * textScale(picture.width);
-  Image cells(picture.width, std::max(height, 0), 1);
+  // The counts fill the first column down to the paper of the legend, however that is laid out.
+  int height = 0;
+  while (height < picture.height && packed(picture.at(0, height)) != packed(kPaper)) ++height;
+  Image cells(picture.width, height, 1);
   for (int y = 0; y < cells.height; ++y)
     for (int x = 0; x < cells.width; ++x) {
       const auto found = counts.find(packed(picture.at(x, y)));
@@ -164,18 +191,22 @@ Image heatmapStrip(const std::vector<Image>& cells, const std::vector<std::strin
     images_height = std::max(images_height, image.height);
   }
   const HeatmapRange range = heatmapRange(scale, all);
-  const int width = std::max(images_width, kLegendMinWidth), text = textScale(width);
-  const int captions_height = kLine * text;
-  Image canvas = blankCanvas(width, images_height + captions_height + kLegendHeight * text);
+  const int width = std::max(images_width, kLegendMinWidth);
+  const LegendLayout layout(width);
+  const int captions_height = layout.text * 7 / 4;
+  Image canvas = blankCanvas(width, images_height + captions_height + layout.height);
   int x = 0;
+  std::vector<const Image*> pictures;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     paste(heatmapColours(cells[i], range), canvas, x, 0);
-    const int caption_x = x + (cells[i].width - textWidth(captions[i], text)) / 2;
-    drawText(canvas, caption_x, images_height + kMargin * text / 2, captions[i], text, kInk);
+    const TextStyle style = fitted({.size_px = layout.text}, captions[i], cells[i].width);
+    drawText(canvas, x + cells[i].width / 2, images_height + layout.text * 5 / 4, captions[i],
+             style, TextAlign::kCentre);
     x += cells[i].width;
+    pictures.push_back(&cells[i]);
   }
   drawLegend(canvas, images_height + captions_height, range, title,
-             fmt::format("min {:.0f}  max {:.0f}", all.min, all.max));
+             fmt::format("min {:.0f}    max {:.0f}", all.min, all.max), greysOf(pictures));
   return canvas;
 }
 

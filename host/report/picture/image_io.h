@@ -1,4 +1,4 @@
-// Image files. The only code that includes OpenImageIO.
+// Image files. With text_coverage.cpp the only code that includes OpenImageIO.
 #pragma once
 #include <filesystem>
 

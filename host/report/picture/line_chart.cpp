@@ -7,16 +7,22 @@
 #include <cmath>
 
 #include "host/core/error.h"
+#include "host/report/picture/shape_drawing.h"
 #include "host/report/picture/text_drawing.h"
 
 namespace glintmark {
 namespace {
 
-constexpr DisplayColour kPaper = {1, 1, 1}, kInk = {0.1f, 0.1f, 0.1f},
-                        kGrid = {0.88f, 0.88f, 0.88f};
-constexpr int kLeft_px = 44, kTop_px = 20, kRight_px = 12, kBottom_px = 22;
-constexpr int kLine_px = kGlyphHeightPx + 6;
+constexpr int kTitle_px = 13, kText_px = 12;
+constexpr int kLeft_px = 46, kTop_px = 30, kRight_px = 16, kBottom_px = 24;
+constexpr int kLine_px = 20;         // of the legend
+constexpr int kLabelColumn_px = 22;  // left of all panels, for the label of their ordinates
+constexpr int kSwatch_px = 18;
+constexpr double kLineWidth_px = 2, kDotRadius_px = 2.6;
 constexpr int kTicks = 4;  // intervals on an axis
+
+constexpr TextStyle kTickStyle{.size_px = kText_px, .colour = kSoftInk};
+constexpr TextStyle kLegendStyle{.size_px = kTitle_px};
 
 // Where a panel's data go.
 struct Plot {
@@ -25,42 +31,35 @@ struct Plot {
 
   double column(double x) const { return left + (x - x_low) / (x_high - x_low) * width; }
   double row(double y) const { return top + (1 - y / y_high) * height; }
+  glm::dvec2 point(double x, double y) const { return {column(x), row(y)}; }
+  // Lines may stand over by half their width.
+  ClipBox clip() const { return {left - 2, top - 2, left + width + 3, top + height + 3}; }
   bool holds(double x, double y) const {
     return std::isfinite(x) && std::isfinite(y) && x >= x_low && x <= x_high;
   }
 };
 
-void drawLine(Image& image, const Plot& plot, double x0, double y0, double x1, double y1,
-              const DisplayColour& colour) {
-  const int steps = 2 + static_cast<int>(2 * std::max(std::abs(x1 - x0), std::abs(y1 - y0)));
-  for (int i = 0; i <= steps; ++i) {
-    const double t = static_cast<double>(i) / steps;
-    const int x = static_cast<int>(std::lround(x0 + t * (x1 - x0)));
-    const int y = static_cast<int>(std::lround(y0 + t * (y1 - y0)));
-    if (y >= plot.top - 1 && y <= plot.top + plot.height) fillRect(image, x, y, 2, 2, colour);
-  }
-}
-
 void drawSeries(Image& image, const Plot& plot, const ChartSeries& series) {
   if (series.x.size() != series.y.size())
     throw Error(fmt::format("the series '{}' has {} abscissae and {} values", series.name,
                             series.x.size(), series.y.size()));
-  bool joined = false;  // the point before this one is drawn
+  std::vector<glm::dvec2> line;  // points that no gap parts
+  const auto drawPart = [&] {
+    if (line.size() > 1) drawPolyline(image, line, kLineWidth_px, series.colour, plot.clip());
+    line.clear();
+  };
   for (std::size_t i = 0; i < series.x.size(); ++i) {
     if (!plot.holds(series.x[i], series.y[i])) {
-      joined = false;
+      drawPart();
       continue;
     }
-    const double x = plot.column(series.x[i]), y = plot.row(series.y[i]);
-    if (series.dots) {
-      if (y >= plot.top)
-        fillRect(image, static_cast<int>(x) - 2, static_cast<int>(y) - 2, 5, 5, series.colour);
-    } else if (joined) {
-      drawLine(image, plot, plot.column(series.x[i - 1]), plot.row(series.y[i - 1]), x, y,
-               series.colour);
-    }
-    joined = true;
+    const glm::dvec2 point = plot.point(series.x[i], series.y[i]);
+    if (!series.dots)
+      line.push_back(point);
+    else if (point.y >= plot.top)
+      drawDot(image, point, kDotRadius_px, series.colour, plot.clip());
   }
+  drawPart();
 }
 
 std::string tickLabel(double value) {
@@ -68,16 +67,18 @@ std::string tickLabel(double value) {
 }
 
 void drawAxes(Image& image, const Plot& plot) {
+  const int bottom = plot.top + plot.height;
   for (int tick = 0; tick <= kTicks; ++tick) {
     const double t = static_cast<double>(tick) / kTicks;
     const int y = plot.top + static_cast<int>((1 - t) * plot.height);
-    fillRect(image, plot.left, y, plot.width, 1, tick == 0 ? kInk : kGrid);
-    const std::string value = tickLabel(t * plot.y_high);
-    drawText(image, plot.left - 4 - textWidth(value, 1), y - kGlyphHeightPx / 2, value, 1, kInk);
+    fillRect(image, plot.left, y, plot.width + 1, 1, tick == 0 ? kSoftInk : kGridInk);
+    drawText(image, plot.left - 8, y + kText_px / 3, tickLabel(t * plot.y_high), kTickStyle,
+             TextAlign::kRight);
     const int x = plot.left + static_cast<int>(t * plot.width);
-    fillRect(image, x, plot.top, 1, plot.height, tick == 0 ? kInk : kGrid);
-    const std::string at = tickLabel(plot.x_low + t * (plot.x_high - plot.x_low));
-    drawText(image, x - textWidth(at, 1) / 2, plot.top + plot.height + 5, at, 1, kInk);
+    fillRect(image, x, bottom, 1, 5, kSoftInk);
+    drawText(image, x, bottom + 7 + kText_px * 3 / 4,
+             tickLabel(plot.x_low + t * (plot.x_high - plot.x_low)), kTickStyle,
+             TextAlign::kCentre);
   }
 }
 
@@ -94,16 +95,38 @@ double greatestOf(const ChartPanel& panel) {
   return kTicks * 10 * decade;
 }
 
-void drawLegend(Image& image, int y, const ChartPanel& panel, const ChartOptions& options) {
-  drawText(image, kLeft_px, y, fmt::format("right: {}   up: {}", options.x_label, options.y_label),
-           1, kInk);
-  int x = kLeft_px;
+// Rows of the legend: each its series.
+std::vector<std::vector<const ChartSeries*>> legendRows(const ChartPanel& panel, int width_px) {
+  std::vector<std::vector<const ChartSeries*>> rows(1);
+  int used = 0;
   for (const ChartSeries& series : panel.series) {
-    const int width = 22 + textWidth(series.name, 1) + 16;
-    if (x + width > image.width && x > kLeft_px) x = kLeft_px, y += kLine_px;
-    fillRect(image, x, y + kLine_px + 2, 16, 3, series.colour);
-    drawText(image, x + 22, y + kLine_px, series.name, 1, kInk);
-    x += width;
+    const int width = kSwatch_px + 6 + textWidth(series.name, kLegendStyle) + 20;
+    if (used + width > width_px && used > 0) {
+      rows.emplace_back();
+      used = 0;
+    }
+    rows.back().push_back(&series);
+    used += width;
+  }
+  return rows;
+}
+
+void drawLegend(Image& image, int x0, int y,
+                const std::vector<std::vector<const ChartSeries*>>& rows) {
+  const ClipBox all = {0, 0, image.width, image.height};
+  for (const auto& row : rows) {
+    int x = x0;
+    for (const ChartSeries* series : row) {
+      const double middle = y - kTitle_px * 0.33;
+      const glm::dvec2 ends[] = {{x + 1, middle}, {x + kSwatch_px - 1, middle}};
+      if (series->dots)
+        drawDot(image, (ends[0] + ends[1]) / 2.0, kDotRadius_px, series->colour, all);
+      else
+        drawPolyline(image, ends, kLineWidth_px + 0.5, series->colour, all);
+      drawText(image, x + kSwatch_px + 6, y, series->name, kLegendStyle);
+      x += kSwatch_px + 6 + textWidth(series->name, kLegendStyle) + 20;
+    }
+    y += kLine_px;
   }
 }
 
@@ -123,13 +146,21 @@ Image lineChart(const std::vector<ChartPanel>& panels, const ChartOptions& optio
   if (panels.empty() || options.columns < 1) throw Error("a chart needs a panel and a column");
   const int count = static_cast<int>(panels.size());
   const int columns = std::min(options.columns, count), rows = (count + columns - 1) / columns;
-  Image image(columns * options.panel_width_px, rows * options.panel_height_px + 4 * kLine_px, 3);
+  const int panels_left = options.y_label.empty() ? 0 : kLabelColumn_px;
+  const int width = panels_left + columns * options.panel_width_px;
+  const int panels_bottom = rows * options.panel_height_px;
+  const int label_height = options.x_label.empty() ? 0 : kLine_px;
+  const int legend_left = panels_left + kLeft_px;
+  const auto legend = legendRows(panels.front(), width - legend_left - kRight_px);
+  Image image(width,
+              panels_bottom + label_height + kLine_px * static_cast<int>(legend.size()) + kLine_px,
+              3);
   fillRect(image, 0, 0, image.width, image.height, kPaper);
   for (int i = 0; i < count; ++i) {
     const ChartPanel& panel = panels[static_cast<std::size_t>(i)];
     if (!(panel.x_high > panel.x_low))
       throw Error(fmt::format("the panel '{}' has an empty range", panel.title));
-    const int x0 = i % columns * options.panel_width_px;
+    const int x0 = panels_left + i % columns * options.panel_width_px;
     const int y0 = i / columns * options.panel_height_px;
     const Plot plot = {x0 + kLeft_px,
                        y0 + kTop_px,
@@ -138,11 +169,17 @@ Image lineChart(const std::vector<ChartPanel>& panels, const ChartOptions& optio
                        panel.x_low,
                        panel.x_high,
                        options.y_high > 0 ? options.y_high : greatestOf(panel)};
-    drawText(image, plot.left, y0 + 6, panel.title, 1, kInk);
+    const TextStyle bold{.size_px = kTitle_px, .weight = TextWeight::kBold};
+    drawText(image, plot.left, plot.top - 11, panel.title, fitted(bold, panel.title, plot.width));
     drawAxes(image, plot);
     for (const ChartSeries& series : panel.series) drawSeries(image, plot, series);
   }
-  drawLegend(image, rows * options.panel_height_px + 4, panels.front(), options);
+  drawTurnedText(image, kLabelColumn_px / 2 + 2, panels_bottom / 2, options.y_label,
+                 fitted(kLegendStyle, options.y_label, panels_bottom), TextTurn::kUpwards);
+  drawText(image, (legend_left + width - kRight_px) / 2, panels_bottom + kText_px, options.x_label,
+           fitted(kLegendStyle, options.x_label, width - legend_left - kRight_px),
+           TextAlign::kCentre);
+  drawLegend(image, legend_left, panels_bottom + label_height + kLine_px, legend);
   return image;
 }
 

@@ -5,17 +5,33 @@
 #include <algorithm>
 
 #include "host/core/error.h"
+#include "host/report/picture/colour_scale.h"
 #include "host/report/picture/text_drawing.h"
 
 namespace glintmark {
 namespace {
 
-constexpr DisplayColour kPaper = {1, 1, 1};
-constexpr DisplayColour kInk = {0, 0, 0};
-constexpr int kMarginPx = 12;
-constexpr int kLinePx = kGlyphHeightPx + 5;
-constexpr int kBarPx = 12;
-constexpr int kTicks = 5;  // intervals on the colour bar
+constexpr int kIntervals = 5;  // on the colour bar
+
+// Sizes in pixels for text of one size.
+struct Layout {
+  int text, margin, left, top;  // of the first panel
+  int panel_width, panel_height, x_label, title, bar, width, height;
+
+  Layout(int panels, const MatrixPictureOptions& options)
+      : panel_width(options.width * options.entry_px),
+        panel_height(options.height * options.entry_px) {
+    text = textSizeFor(panels * panel_width);
+    margin = text * 3 / 2;
+    left = margin + (options.y_label.empty() ? 0 : text * 3 / 2);
+    top = margin + text * 3 / 2;
+    x_label = top + panel_height + text * 3 / 2;
+    title = x_label + text * 9 / 4;
+    bar = title + text * 3 / 4;
+    width = left + panels * (panel_width + margin);
+    height = bar + colourScaleHeight(text) + margin;
+  }
+};
 
 void drawPanel(Image& canvas, int x0, int y0, const MatrixPanel& panel,
                const MatrixPictureOptions& options) {
@@ -29,28 +45,9 @@ void drawPanel(Image& canvas, int x0, int y0, const MatrixPanel& panel,
   }
 }
 
-void drawColourBar(Image& canvas, int y, const MatrixPictureOptions& options) {
-  const int width = canvas.width - 2 * kMarginPx;
-  drawText(canvas, kMarginPx, y, options.title, 1, kInk);
-  y += kLinePx;
-  for (int x = 0; x < width; ++x) {
-    fillRect(canvas, kMarginPx + x, y, 1, kBarPx, falseColour(x / (width - 1.0)));
-  }
-  for (int tick = 0; tick <= kTicks; ++tick) {
-    const double t = static_cast<double>(tick) / kTicks;
-    const std::string label = fmt::format("{:.2f}", options.low + t * (options.high - options.low));
-    const int centre = kMarginPx + static_cast<int>(t * (width - 1));
-    const int label_width = textWidth(label, 1);
-    fillRect(canvas, centre, y + kBarPx, 1, 3, kInk);
-    drawText(canvas, std::clamp(centre - label_width / 2, 0, canvas.width - label_width),
-             y + kBarPx + 5, label, 1, kInk);
-  }
-}
-
 }  // namespace
 
 Image matrixPicture(const std::vector<MatrixPanel>& panels, const MatrixPictureOptions& options) {
-  const int width = options.width * options.entry_px, height = options.height * options.entry_px;
   const int count = static_cast<int>(panels.size());
   for (const MatrixPanel& panel : panels) {
     if (panel.values.size() != static_cast<std::size_t>(options.width) * options.height) {
@@ -58,18 +55,31 @@ Image matrixPicture(const std::vector<MatrixPanel>& panels, const MatrixPictureO
                               panel.values.size(), options.width, options.height));
     }
   }
-  const int panels_bottom = kMarginPx + kLinePx + height;
-  Image canvas(count * (width + kMarginPx) + kMarginPx,
-               panels_bottom + 4 * kLinePx + 2 * kMarginPx + kBarPx, 3);
+  const Layout layout(count, options);
+  const TextStyle bold{.size_px = layout.text, .weight = TextWeight::kBold};
+  const TextStyle soft{.size_px = layout.text, .colour = kSoftInk};
+  Image canvas(layout.width, layout.height, 3);
   fillRect(canvas, 0, 0, canvas.width, canvas.height, kPaper);
   for (int i = 0; i < count; ++i) {
-    const int x0 = kMarginPx + i * (width + kMarginPx);
-    drawText(canvas, x0, kMarginPx, panels[i].caption, 1, kInk);
-    drawPanel(canvas, x0, kMarginPx + kLinePx, panels[i], options);
+    const int x0 = layout.left + i * (layout.panel_width + layout.margin);
+    const std::string& caption = panels[static_cast<std::size_t>(i)].caption;
+    drawText(canvas, x0, layout.top - layout.text / 2, caption,
+             fitted(bold, caption, layout.panel_width));
+    drawPanel(canvas, x0, layout.top, panels[static_cast<std::size_t>(i)], options);
+    drawText(canvas, x0, layout.x_label, options.x_label,
+             fitted(soft, options.x_label, layout.panel_width));
   }
-  drawText(canvas, kMarginPx, panels_bottom + 5,
-           fmt::format("right: {}   down: {}", options.x_label, options.y_label), 1, kInk);
-  drawColourBar(canvas, panels_bottom + kLinePx + kMarginPx, options);
+  // Reads in the direction in which its values grow.
+  drawTurnedText(canvas, layout.left - layout.text, layout.top + layout.panel_height / 2,
+                 options.y_label, fitted(soft, options.y_label, layout.panel_height),
+                 TextTurn::kDownwards);
+  const int bar_width = canvas.width - layout.left - layout.margin;
+  drawText(canvas, layout.left, layout.title, options.title,
+           fitted(bold, options.title, bar_width));
+  drawColourScale(
+      canvas, layout.left, layout.bar, bar_width,
+      {.low = options.low, .high = options.high, .intervals = kIntervals, .decimals = 2},
+      layout.text);
   return canvas;
 }
 

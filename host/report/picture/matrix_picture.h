@@ -18,7 +18,7 @@ struct MatrixPictureOptions {
   int width = 0, height = 0;         // entries of each panel
   int entry_px = 5;                  // side of an entry's square
   double low = 0, high = 1;          // values of the ends of the colour bar
-  std::string title{};               // drawn above the colour bar
+  std::string title{};               // what the colours mean, above the colour bar
   std::string x_label{}, y_label{};  // what runs to the right and downwards
 };
 

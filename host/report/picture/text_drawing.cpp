@@ -1,80 +1,42 @@
 #include "host/report/picture/text_drawing.h"
 
 #include <algorithm>
-#include <cctype>
-#include <cstdint>
+#include <cmath>
+#include <string>
+
+#include "host/report/picture/text_coverage.h"
 
 namespace glintmark {
 namespace {
 
-using GlyphRows = std::array<std::uint8_t, kGlyphHeightPx>;  // from the top; bit 4 is the left
+constexpr int kLeastSize_px = 8;
 
-struct Glyph {
-  char character;
-  GlyphRows rows;
-};
+// What is drawn: no blanks at the end, one question mark for each character that is not ASCII,
+// whatever the count of its bytes in UTF-8. OpenImageIO 2.4 takes other letters for these.
+std::string printable(std::string_view text) {
+  text = text.substr(0, text.find_last_not_of(' ') + 1);
+  std::string out;
+  for (const char character : text) {
+    const auto byte = static_cast<unsigned char>(character);
+    if (byte < 0x80)
+      out += character;
+    else if (byte >= 0xC0)
+      out += '?';
+  }
+  return out;
+}
 
-constexpr Glyph kFont[] = {
-    {' ', {0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00}},
-    {'0', {0x0E, 0x11, 0x13, 0x15, 0x19, 0x11, 0x0E}},
-    {'1', {0x04, 0x0C, 0x04, 0x04, 0x04, 0x04, 0x0E}},
-    {'2', {0x0E, 0x11, 0x01, 0x06, 0x08, 0x10, 0x1F}},
-    {'3', {0x0E, 0x11, 0x01, 0x06, 0x01, 0x11, 0x0E}},
-    {'4', {0x02, 0x06, 0x0A, 0x12, 0x1F, 0x02, 0x02}},
-    {'5', {0x1F, 0x10, 0x1E, 0x01, 0x01, 0x11, 0x0E}},
-    {'6', {0x06, 0x08, 0x10, 0x1E, 0x11, 0x11, 0x0E}},
-    {'7', {0x1F, 0x01, 0x02, 0x04, 0x04, 0x04, 0x04}},
-    {'8', {0x0E, 0x11, 0x11, 0x0E, 0x11, 0x11, 0x0E}},
-    {'9', {0x0E, 0x11, 0x11, 0x0F, 0x01, 0x02, 0x0C}},
-    {'A', {0x0E, 0x11, 0x11, 0x1F, 0x11, 0x11, 0x11}},
-    {'B', {0x1E, 0x11, 0x11, 0x1E, 0x11, 0x11, 0x1E}},
-    {'C', {0x0E, 0x11, 0x10, 0x10, 0x10, 0x11, 0x0E}},
-    {'D', {0x1E, 0x11, 0x11, 0x11, 0x11, 0x11, 0x1E}},
-    {'E', {0x1F, 0x10, 0x10, 0x1E, 0x10, 0x10, 0x1F}},
-    {'F', {0x1F, 0x10, 0x10, 0x1E, 0x10, 0x10, 0x10}},
-    {'G', {0x0E, 0x11, 0x10, 0x17, 0x11, 0x11, 0x0F}},
-    {'H', {0x11, 0x11, 0x11, 0x1F, 0x11, 0x11, 0x11}},
-    {'I', {0x0E, 0x04, 0x04, 0x04, 0x04, 0x04, 0x0E}},
-    {'J', {0x07, 0x02, 0x02, 0x02, 0x02, 0x12, 0x0C}},
-    {'K', {0x11, 0x12, 0x14, 0x18, 0x14, 0x12, 0x11}},
-    {'L', {0x10, 0x10, 0x10, 0x10, 0x10, 0x10, 0x1F}},
-    {'M', {0x11, 0x1B, 0x15, 0x15, 0x11, 0x11, 0x11}},
-    {'N', {0x11, 0x19, 0x15, 0x13, 0x11, 0x11, 0x11}},
-    {'O', {0x0E, 0x11, 0x11, 0x11, 0x11, 0x11, 0x0E}},
-    {'P', {0x1E, 0x11, 0x11, 0x1E, 0x10, 0x10, 0x10}},
-    {'Q', {0x0E, 0x11, 0x11, 0x11, 0x15, 0x12, 0x0D}},
-    {'R', {0x1E, 0x11, 0x11, 0x1E, 0x14, 0x12, 0x11}},
-    {'S', {0x0F, 0x10, 0x10, 0x0E, 0x01, 0x01, 0x1E}},
-    {'T', {0x1F, 0x04, 0x04, 0x04, 0x04, 0x04, 0x04}},
-    {'U', {0x11, 0x11, 0x11, 0x11, 0x11, 0x11, 0x0E}},
-    {'V', {0x11, 0x11, 0x11, 0x11, 0x11, 0x0A, 0x04}},
-    {'W', {0x11, 0x11, 0x11, 0x15, 0x15, 0x1B, 0x11}},
-    {'X', {0x11, 0x11, 0x0A, 0x04, 0x0A, 0x11, 0x11}},
-    {'Y', {0x11, 0x11, 0x0A, 0x04, 0x04, 0x04, 0x04}},
-    {'Z', {0x1F, 0x01, 0x02, 0x04, 0x08, 0x10, 0x1F}},
-    {'.', {0x00, 0x00, 0x00, 0x00, 0x00, 0x0C, 0x0C}},
-    {',', {0x00, 0x00, 0x00, 0x00, 0x0C, 0x04, 0x08}},
-    {':', {0x00, 0x0C, 0x0C, 0x00, 0x0C, 0x0C, 0x00}},
-    {'-', {0x00, 0x00, 0x00, 0x1F, 0x00, 0x00, 0x00}},
-    {'_', {0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x1F}},
-    {'+', {0x00, 0x04, 0x04, 0x1F, 0x04, 0x04, 0x00}},
-    {'/', {0x01, 0x02, 0x02, 0x04, 0x08, 0x08, 0x10}},
-    {'%', {0x19, 0x19, 0x02, 0x04, 0x08, 0x13, 0x13}},
-    {'=', {0x00, 0x00, 0x1F, 0x00, 0x1F, 0x00, 0x00}},
-    {'<', {0x02, 0x04, 0x08, 0x10, 0x08, 0x04, 0x02}},
-    {'>', {0x10, 0x08, 0x04, 0x02, 0x04, 0x08, 0x10}},
-    {'(', {0x02, 0x04, 0x08, 0x08, 0x08, 0x04, 0x02}},
-    {')', {0x08, 0x04, 0x02, 0x02, 0x02, 0x04, 0x08}},
-};
-constexpr GlyphRows kMissingGlyph = {0x1F, 0x11, 0x11, 0x11, 0x11, 0x11, 0x1F};
-
-const GlyphRows& glyphRows(char character) {
-  const char upper = static_cast<char>(std::toupper(static_cast<unsigned char>(character)));
-  const auto found = std::ranges::find(kFont, upper, &Glyph::character);
-  return found != std::end(kFont) ? found->rows : kMissingGlyph;
+TextCoverage coverageOf(std::string_view text, const TextStyle& style) {
+  return textCoverage(
+      printable(text), style.size_px,
+      style.weight == TextWeight::kBold ? GLINTMARK_FONT_BOLD : GLINTMARK_FONT_REGULAR);
 }
 
 }  // namespace
+
+int textSizeFor(int picture_width_px) {
+  return std::clamp(static_cast<int>(std::lround(picture_width_px / 68.0)), 12, 40);
+}
 
 void fillRect(Image& image, int x, int y, int width, int height, const DisplayColour& colour) {
   for (int py = std::max(y, 0); py < std::min(y + height, image.height); ++py) {
@@ -84,23 +46,45 @@ void fillRect(Image& image, int x, int y, int width, int height, const DisplayCo
   }
 }
 
-void drawText(Image& image, int x, int y, std::string_view text, int scale,
-              const DisplayColour& colour) {
-  for (const char character : text) {
-    const GlyphRows& rows = glyphRows(character);
-    for (int row = 0; row < kGlyphHeightPx; ++row) {
-      for (int column = 0; column < kGlyphWidthPx; ++column) {
-        if ((rows[row] >> (kGlyphWidthPx - 1 - column) & 1) == 0) continue;
-        fillRect(image, x + column * scale, y + row * scale, scale, scale, colour);
-      }
-    }
-    x += kGlyphAdvancePx * scale;
-  }
+void blendPixel(Image& image, int x, int y, const DisplayColour& colour, float share) {
+  if (x < 0 || y < 0 || x >= image.width || y >= image.height) return;
+  const std::span<float> pixel = image.at(x, y);
+  for (std::size_t c = 0; c < colour.size(); ++c)
+    pixel[c] = std::lerp(pixel[c], colour[c], std::min(share, 1.0f));
 }
 
-int textWidth(std::string_view text, int scale) {
-  const int advances = static_cast<int>(text.size()) * kGlyphAdvancePx;
-  return text.empty() ? 0 : (advances - (kGlyphAdvancePx - kGlyphWidthPx)) * scale;
+void drawText(Image& image, int x, int baseline_y, std::string_view text, const TextStyle& style,
+              TextAlign align) {
+  const TextCoverage ink = coverageOf(text, style);
+  const int width = ink.left + ink.share.width;
+  if (align == TextAlign::kCentre) x -= width / 2;
+  if (align == TextAlign::kRight) x -= width;
+  for (int row = 0; row < ink.share.height; ++row)
+    for (int column = 0; column < ink.share.width; ++column)
+      blendPixel(image, x + ink.left + column, baseline_y + ink.top + row, style.colour,
+                 ink.share.at(column, row)[0]);
+}
+
+void drawTurnedText(Image& image, int x, int y, std::string_view text, const TextStyle& style,
+                    TextTurn turn) {
+  const TextCoverage ink = coverageOf(text, style);
+  // The middle of the line is half the height of small letters above the baseline.
+  const int middle = -style.size_px / 4, sign = turn == TextTurn::kDownwards ? 1 : -1;
+  for (int row = 0; row < ink.share.height; ++row)
+    for (int column = 0; column < ink.share.width; ++column)
+      blendPixel(image, x - sign * (ink.top + row - middle),
+                 y + sign * (column - ink.share.width / 2), style.colour,
+                 ink.share.at(column, row)[0]);
+}
+
+int textWidth(std::string_view text, const TextStyle& style) {
+  const TextCoverage ink = coverageOf(text, style);
+  return std::max(ink.left + ink.share.width, 0);
+}
+
+TextStyle fitted(TextStyle style, std::string_view text, int width_px) {
+  while (style.size_px > kLeastSize_px && textWidth(text, style) > width_px) --style.size_px;
+  return style;
 }
 
 }  // namespace glintmark
