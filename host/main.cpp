@@ -3,9 +3,9 @@
 #include <exception>
 #include <new>
 
-#include "host/experiment/interrupt.h"
 #include "host/cli/program.h"
 #include "host/core/error.h"
+#include "host/experiment/interrupt.h"
 
 int main(int argc, char** argv) {
   try {
