@@ -152,6 +152,7 @@ TEST_F(Page, APhoneScrollsNoSidewaysAndTheSliderAnswers) {
                 "  range.focus();\n"
                 "  data.focused = page.activeElement === range;\n"
                 "  const canvas = page.querySelector(\".strip canvas\");\n"
+                "  data.height = canvas.height;\n"
                 "  const scratch = document.createElement(\"canvas\").getContext(\"2d\", "
                 "{willReadFrequently: true});\n"
                 "  const level = () => (scratch.drawImage(canvas, 0, 0), scratch.getImageData(5, "
@@ -169,6 +170,7 @@ TEST_F(Page, APhoneScrollsNoSidewaysAndTheSliderAnswers) {
   EXPECT_EQ(rootData(result.out, "errors"), "0");
   EXPECT_EQ(rootData(result.out, "wide"), std::to_string(kPhoneWidth_px));
   EXPECT_EQ(rootData(result.out, "focused"), "true");
+  EXPECT_EQ(rootData(result.out, "height"), "48") << "without the names";
   EXPECT_EQ(rootData(result.out, "left"), "51");    // original: 1/5
   EXPECT_EQ(rootData(result.out, "right"), "204");  // truth: 4/5
 }
