@@ -40,8 +40,9 @@ std::vector<float> directions(Device& device, const FrameRenderer& renderer, con
   KernelConfig config = renderer.configs().front();
   config.width = 1;
   const std::size_t plane_bytes = planes.mask.size() * planes.stride * 4;
-  Buffer words(device, plane_bytes, "the planes"), frame(device, sizeof params, "the frame");
-  Buffer out(device, planes.stride * 24, "directions");
+  Buffer words(device, plane_bytes, BufferPurpose::kPlanes),
+      frame(device, sizeof params, BufferPurpose::kFrameParams);
+  Buffer out(device, planes.stride * 24, BufferPurpose::kProbe);
   words.write(planes.storage.data(), plane_bytes);
   frame.write(&params, sizeof params);
   ProgramCache cache(device);
