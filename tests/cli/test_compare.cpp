@@ -33,8 +33,7 @@ TEST_F(Compare, ExitCodeTellsARegression) {
       runGlintmark({"compare", before, after, "--json", folder_ / "comparison.json"});
   EXPECT_EQ(worse.exit_code, 1) << worse.err;
   EXPECT_NE(worse.out.find("WORSE"), std::string::npos) << worse.out;
-  EXPECT_NE(readFile(folder_ / "comparison.json").find("\"regression\": true"),
-            std::string::npos);
+  EXPECT_NE(readFile(folder_ / "comparison.json").find("\"regression\": true"), std::string::npos);
   EXPECT_EQ(runGlintmark({"compare", after, before}).exit_code, 0);
   EXPECT_EQ(runGlintmark({"compare", before, after, "--threshold", "60"}).exit_code, 0);
 }

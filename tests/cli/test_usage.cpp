@@ -86,9 +86,8 @@ TEST(Usage, Devices) {
 TEST(Usage, SceneFiles) {
   const TempFolder folder;
   writeFile(folder / "cut.toml", "description = \"a\"\n[mesh\n");
-  writeFile(
-      folder / "typo.toml",
-      "descriptino = \"a\"\n" + readFile(GLINTMARK_SOURCE_DIR "/scenes/screen_plane.toml"));
+  writeFile(folder / "typo.toml",
+            "descriptino = \"a\"\n" + readFile(GLINTMARK_SOURCE_DIR "/scenes/screen_plane.toml"));
   const std::string picture = folder / "a.png";
   expectError({"render", folder / "cut.toml", "-o", picture}, 2, {"cut.toml", "2"});
   expectError({"render", folder / "typo.toml", "-o", picture}, 2, {"descriptino", "description"});
