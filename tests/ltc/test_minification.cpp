@@ -7,6 +7,7 @@
 #include "host/core/error.h"
 #include "host/filter/normal_map_generators.h"
 #include "host/frame/effects.h"
+#include "host/frame/frame_renderer.h"
 #include "host/frame/ground_truth.h"
 #include "host/harness/area_light_harness.h"
 #include "host/harness/pixel_harness.h"
