@@ -32,10 +32,9 @@ Image oneErrorOff(const TruthImages& truth) {
 
 SampledFrame sampleFrame(TruthRenderer& renderer, int begin, int count) {
   renderer.prepare();
-  const FrameTimes times = renderer.addSamples(static_cast<std::uint32_t>(begin),
-                                               static_cast<std::uint32_t>(count));
-  return {renderer.readMean(static_cast<std::uint32_t>(count)),
-          times.shading_event_ns * kMsPerNs};
+  const FrameTimes times =
+      renderer.addSamples(static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(count));
+  return {renderer.readMean(static_cast<std::uint32_t>(count)), times.shading_event_ns * kMsPerNs};
 }
 
 }  // namespace glintmark

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "host/core/error.h"
-#include "host/ocl/switches.h"
 #include "host/experiment/accuracy/accuracy_table.h"
+#include "host/ocl/switches.h"
 
 namespace glintmark {
 namespace {

@@ -264,7 +264,8 @@ void EffectsMeasurer::CaseMaker::addTimes(const Frames& frames) {
 void EffectsMeasurer::CaseMaker::addBytes() {
   const double planes = compared_.heldBytes(BufferPurpose::kPlanes);
   add("planes_bytes", {planes}, "rasterized planes");
-  add("tables_bytes", {compared_.peakBytes() - planes - compared_.heldBytes(BufferPurpose::kRadiance)},
+  add("tables_bytes",
+      {compared_.peakBytes() - planes - compared_.heldBytes(BufferPurpose::kRadiance)},
       "all other buffers but the radiance: tables, textures, lights, parameters");
   add("peak_bytes", {compared_.peakBytes()}, "device buffers really allocated, most at once");
   add("uber_peak_bytes", {static_cast<double>(compared_.uber_peak_bytes)});
