@@ -11,6 +11,7 @@
 #endif
 #if CONE_LIGHTS
 #include "glint/cone_light.clh"
+#include "wide/wide_trig.clh"
 #endif
 #include "glint/hash.clh"
 #include "pixel.clh"
@@ -23,6 +24,9 @@
 // for every n. (M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018.)
 #define STEP_X 0xC13FA9A9u
 #define STEP_Y 0x91E10DA5u
+// 2^32 (sqrt(2) - 1) and 2^32 (sqrt(3) - 1): steps within lights, independent of those of pixels.
+#define STEP_RING 0x6A09E667u
+#define STEP_TURN 0xBB67AE85u
 
 // One sample of each lane's pixel.
 typedef struct {
@@ -32,6 +36,7 @@ typedef struct {
   vfloat3 view;        // unit, towards the eye, in that frame
   vmask visible;       // the normal does not turn from the eye
   vuint seed;          // random bits of the sample
+  vuint ring, turn;    // two more coordinates of its point, as fractions of 2^32
 } SurfaceSample;
 
 // What a batch has in common.
@@ -77,6 +82,8 @@ WIDE SurfaceSample sampleSurface(const PixelSurface* surface, uint index,
   s.px = toFloat(surface->pixel & 0xFFFFu) + s.sx;
   s.py = toFloat(surface->pixel >> 16) + s.sy;
   s.seed = mixCell(surface->seed + index * HASH_MIX_3);
+  s.ring = mixCell(surface->seed + HASH_MIX_3) + index * STEP_RING;
+  s.turn = mixCell(surface->seed + HASH_MIX_3 + HASH_V) + index * STEP_TURN;
 #if NORMAL_MAP
   const vuint u = surface->u + uvFraction(fma(surface->dudx, s.sx, surface->dudy * s.sy));
   const vuint v = surface->v + uvFraction(fma(surface->dvdx, s.sx, surface->dvdy * s.sy));
@@ -96,15 +103,34 @@ WIDE SurfaceSample sampleSurface(const PixelSurface* surface, uint index,
 }
 
 #if CONE_LIGHTS
+// The direction of a sample of number `which` of a cone light, world axes. Solid angles are even in
+// 1 - cos and in the turn around the axis; every light has its own shift of the sample's point.
+WIDE vfloat3 sampleCone(const SurfaceSample* sample, constant const LightParams* light,
+                        uint which) {
+  const vfloat ring = toFloat((sample->ring + which * HASH_U) >> 8) * 0x1p-24f;
+  const vfloat turn = toFloat((sample->turn + which * HASH_V) >> 8) * 0x1p-24f;
+  const vfloat height = ring * light->one_minus_cos;
+  const vfloat radius = wideRoot(height * (2.0f - height));
+  const SineCosine around = sineCosineTurns(turn);
+  // Orthonormal basis of the axis: Duff et al. 2017, Listing 3.
+  const float4 n = light->direction;
+  const float sign = n.z < 0.0f ? -1.0f : 1.0f, a = -1.0f / (sign + n.z), b = n.x * n.y * a;
+  const vfloat x = radius * around.cosine, y = radius * around.sine, z = 1.0f - height;
+  const vfloat3 d = {fma(x, 1.0f + sign * n.x * n.x * a, fma(y, b, z * n.x)),
+                     fma(x, sign * b, fma(y, sign + n.y * n.y * a, z * n.y)),
+                     fma(x, -sign * n.x, fma(y, -n.y, z * n.z))};
+  return d;
+}
+
 WIDE vfloat3 shadeSample(const SurfaceSample* sample, constant const FrameParams* frame,
                          constant const MaterialParams* material,
-                         constant const LightParams* lights, constant const float4* taps) {
+                         constant const LightParams* lights) {
   const vfloat3 ratio = {(vfloat)(1.0f), (vfloat)(1.0f), (vfloat)(1.0f)};
   const SmithLambda lambda_view = smithLambda(sample->view, material->surface.alpha_g);
   vfloat3 sum = {(vfloat)(0.0f), (vfloat)(0.0f), (vfloat)(0.0f)};
   for (uint i = 0; i < frame->light_count; ++i) {
-    LightLobe lobe =
-        evaluateLight(sample->frame, sample->view, lambda_view, material, &lights[i], taps);
+    const vfloat3 light = toLocal(sample->frame, sampleCone(sample, &lights[i], i));
+    LightLobe lobe = pointLobe(light, sample->view, lambda_view, material);
     lobe.specular = sample->visible ? lobe.specular : (vfloat)(0.0f);
     lobe.schlick = sample->visible ? lobe.schlick : (vfloat)(0.0f);
     addLight(lobe, ratio, &material->surface, &lights[i], &sum);
@@ -132,7 +158,8 @@ WIDE void addToPlane(vfloat value, global float* sums, size_t i) {
 }
 
 // Adds `sample_count` samples from number `sample_begin` on to `sums`: six planes of
-// frame->plane_stride entries, radiance (r, g, b) and its squares.
+// frame->plane_stride entries, radiance (r, g, b) and its squares. Lights are sampled over their
+// cones, so `taps`, which frames read, goes unused.
 kernel void truth(global const uint* planes, constant const FrameParams* frame,
                   constant const MaterialParams* material, constant const LightParams* lights,
                   constant const float4* taps,
@@ -164,7 +191,7 @@ kernel void truth(global const uint* planes, constant const FrameParams* frame,
     );
     vfloat3 value = {(vfloat)(0.0f), (vfloat)(0.0f), (vfloat)(0.0f)};
 #if CONE_LIGHTS
-    value = shadeSample(&sample, frame, material, lights, taps);
+    value = shadeSample(&sample, frame, material, lights);
 #endif
 #if LTC
     const vfloat3 place = samplePlace(&surface, &sample, depth, frame);

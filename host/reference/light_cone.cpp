@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "host/reference/beckmann.h"
 
@@ -35,20 +36,147 @@ double powerOf(const Cone& light) {
   return 2.0 / (1.0 + std::cos(light.half_angle_rad));
 }
 
+// Calls visit(slope / alpha) for `samples` slopes of equal shares of a Beckmann lobe.
+template <typename Visit>
+void forEachSlope(int samples, Visit&& visit) {
+  for (int s = 0; s < samples; ++s) {
+    const double radius = std::sqrt(-std::log(1.0 - (s + 0.5) / samples));
+    const double phi = 2.0 * std::numbers::pi * (s * kGolden - std::floor(s * kGolden));
+    visit(glm::dvec2(radius * std::cos(phi), radius * std::sin(phi)));
+  }
+}
+
+// Density over directions of the light that mirror o at slopes of the lobe: D (m . n) / (4 i . m).
+double mirroredDensity(const glm::dvec3& i, const glm::dvec3& o, const glm::dvec2& alpha) {
+  if (i.z <= 0) return 0;
+  const glm::dvec3 m = glm::normalize(i + o);
+  return ndf(m, alpha) * m.z / (4.0 * glm::dot(i, m));
+}
+
+double solidAngleOf(const Cone& light) {
+  const double half_sin = std::sin(0.5 * light.half_angle_rad);
+  return 4.0 * std::numbers::pi * half_sin * half_sin;
+}
+
+bool holds(const Cone& light, const glm::dvec3& i) {
+  // |i - a| = 2 sin(angle / 2), without the cancellation of 1 - i . a.
+  const glm::dvec3 d = i - light.axis;
+  return glm::dot(d, d) <= 4.0 * std::pow(std::sin(0.5 * light.half_angle_rad), 2);
+}
+
 }  // namespace
 
 glm::dvec3 coneRadiance(const Cone& light, const glm::dvec3& o, const glm::dvec2& alpha,
                         const glm::dvec3& f0, int samples) {
+  if (light.half_angle_rad <= 0) return brdfTimesCosine(light.axis, o, alpha, f0);
+  const double even = 1.0 / solidAngleOf(light);
   glm::dvec3 sum(0.0);
-  forEachDirection(light, samples,
-                   [&](const glm::dvec3& i) { sum += brdfTimesCosine(i, o, alpha, f0); });
-  return sum * (powerOf(light) / samples);
+  const auto add = [&](const glm::dvec3& i) {
+    if (i.z > 0) sum += brdfTimesCosine(i, o, alpha, f0) / (even + mirroredDensity(i, o, alpha));
+  };
+  forEachDirection(light, samples, add);
+  forEachSlope(samples, [&](const glm::dvec2& y) {
+    const glm::dvec3 m = glm::normalize(glm::dvec3(y * alpha, 1.0));
+    const glm::dvec3 i = 2.0 * glm::dot(o, m) * m - o;
+    if (glm::dot(o, m) > 0 && holds(light, i)) add(i);
+  });
+  return sum * (even * powerOf(light) / samples);
 }
 
 double coneDiffuse(const Cone& light, int samples) {
   double sum = 0;
   forEachDirection(light, samples, [&](const glm::dvec3& i) { sum += std::max(i.z, 0.0); });
   return sum * powerOf(light) / (std::numbers::pi * samples);
+}
+
+namespace {
+
+// Half vectors of a cone as slopes in units of a microdetail's lobe, each with its area.
+struct WeightedSlope {
+  glm::dvec2 y;
+  double area;
+};
+
+std::vector<WeightedSlope> halfVectorSlopes(const Cone& light, const glm::dvec3& o,
+                                            const glm::dvec2& alpha, int samples) {
+  std::vector<WeightedSlope> slopes;
+  const double per_sample = solidAngleOf(light) / samples;
+  forEachDirection(light, samples, [&](const glm::dvec3& i) {
+    if (i.z <= 0) return;
+    const glm::dvec3 m = glm::normalize(i + o);
+    const double area = per_sample / (4.0 * glm::dot(i, m) * m.z * m.z * m.z);
+    slopes.push_back({glm::dvec2(m.x, m.y) / m.z / alpha, area / (alpha.x * alpha.y)});
+  });
+  return slopes;
+}
+
+// Climbs to a maximum of the lobe's mass by mean shift; `free`: the axes along which it may move.
+double climbedMass(const std::vector<WeightedSlope>& slopes, glm::dvec2 centre,
+                   const glm::dvec2& free) {
+  double mass = 0;
+  for (int step = 0; step < 30; ++step) {
+    glm::dvec2 sum(0.0);
+    mass = 0;
+    for (const WeightedSlope& s : slopes) {
+      const glm::dvec2 d = s.y - centre;
+      const double density = s.area * std::exp(-glm::dot(d, d));
+      mass += density;
+      sum += density * d;
+    }
+    if (mass <= 0) break;
+    const glm::dvec2 move = free * sum / mass;
+    centre += move;
+    if (glm::dot(move, move) < 1e-6) break;
+  }
+  return mass / std::numbers::pi;
+}
+
+// Share of a lobe around slope `centre` / alpha that mirrors the light.
+double countedMass(const Cone& light, const glm::dvec3& o, const glm::dvec2& alpha,
+                   const glm::dvec2& centre, int samples) {
+  int inside = 0;
+  forEachSlope(samples, [&](const glm::dvec2& y) {
+    const glm::dvec3 m = glm::normalize(glm::dvec3((y + centre) * alpha, 1.0));
+    const glm::dvec3 i = 2.0 * glm::dot(o, m) * m - o;
+    if (glm::dot(o, m) > 0 && i.z > 0 && holds(light, i)) ++inside;
+  });
+  return static_cast<double>(inside) / samples;
+}
+
+// The greatest share of a microdetail's lobe. Cones narrower than the lobe are resolved by their
+// own directions, wider ones by the lobe's slopes.
+double greatestMass(const Cone& light, const glm::dvec3& o, const glm::dvec2& alpha,
+                    const glm::dvec2& free, int samples) {
+  constexpr double kNarrowArea = 30;  // in units of alpha^2
+  constexpr std::size_t kClimbs = 6, kCounts = 64;
+  const std::vector<WeightedSlope> slopes = halfVectorSlopes(light, o, alpha, samples);
+  if (slopes.empty()) return 0;
+  double area = 0, best = 0;
+  for (const WeightedSlope& s : slopes) area += s.area;
+  const bool narrow = area < kNarrowArea;
+  const std::size_t starts = narrow ? kClimbs : kCounts;
+  for (std::size_t k = 0; k < starts; ++k) {
+    const glm::dvec2 centre = free * slopes[k * (slopes.size() - 1) / (starts - 1)].y;
+    best = std::max(best, narrow ? climbedMass(slopes, centre, free)
+                                 : countedMass(light, o, alpha, centre, samples / 4));
+  }
+  return best;
+}
+
+}  // namespace
+
+double coneProbability(const Cone& light, const glm::dvec3& o, const glm::dvec2& alpha_g,
+                       const glm::dvec2& alpha_l, bool groove, int samples) {
+  double share = 0;
+  forEachSlope(samples, [&](const glm::dvec2& y) {
+    const glm::dvec3 m = glm::normalize(glm::dvec3(y * alpha_g, 1.0));
+    const glm::dvec3 i = 2.0 * glm::dot(o, m) * m - o;
+    share += glm::dot(o, m) > 0 && i.z > 0 && holds(light, i) ? 1.0 / samples : 0.0;
+  });
+  const glm::dvec2 detail = groove ? glm::dvec2(alpha_g.x, alpha_l.y) : alpha_l;
+  const double best =
+      greatestMass(light, o, detail, groove ? glm::dvec2(0, 1) : glm::dvec2(1), samples);
+  return best > 0 ? std::min(share / best, 1.0) : 0.0;
 }
 
 }  // namespace glintmark::reference

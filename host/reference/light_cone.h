@@ -12,11 +12,19 @@ struct Cone {
 
 /// Mean over the cone of Eq. 1 times i . n, times radiance times solid angle, for an irradiance of
 /// 1 on a surface facing the axis: the radiance of the smooth lobe under that light. `samples`
-/// directions of a rank-1 lattice, each of equal solid angle; directions below the horizon add 0.
+/// directions of the cone and as many half vectors of the lobe, of which those count that mirror
+/// the view into the cone, weighted by the balance heuristic (E. Veach 1997, Sect. 9.2), so that
+/// neither a narrow lobe nor a narrow cone is missed. Directions below the horizon add 0.
 glm::dvec3 coneRadiance(const Cone& light, const glm::dvec3& o, const glm::dvec2& alpha,
                         const glm::dvec3& f0, int samples);
 
 /// The same for a Lambertian surface of albedo 1.
 double coneDiffuse(const Cone& light, int samples);
+
+/// [ZK16] Eq. 7 for a cone: the share of the lobe's slopes that mirror some of the light into the
+/// eye, over the greatest share that one microdetail's lobe can have, wherever it points. Grooves
+/// point across themselves only; along them the lobe is the global one. At most 1; 0 out of reach.
+double coneProbability(const Cone& light, const glm::dvec3& o, const glm::dvec2& alpha_g,
+                       const glm::dvec2& alpha_l, bool groove, int samples);
 
 }  // namespace glintmark::reference

@@ -8,7 +8,7 @@ std::vector<Check> allChecks() {
   std::vector<Check> all;
   for (const auto group :
        {deviceChecks, mathsChecks, seedChecks, binomialChecks, glintChecks, energyChecks,
-        hardPixelChecks, polygonChecks, areaLightChecks, textureChecks, lobeChecks, scatterChecks,
+        coneChecks, hardPixelChecks, polygonChecks, areaLightChecks, textureChecks, lobeChecks, scatterChecks,
         frameChecks, heightFieldChecks}) {
     std::vector<Check> checks = group();
     std::move(checks.begin(), checks.end(), std::back_inserter(all));

@@ -11,7 +11,8 @@ std::vector<Check> mathsChecks();        // elementary functions of wide_math.cl
 std::vector<Check> seedChecks();         // hash.clh
 std::vector<Check> binomialChecks();     // binomial.clh
 std::vector<Check> glintChecks();        // cells and draws of whole pixels
-std::vector<Check> energyChecks();       // glints on average, light cones
+std::vector<Check> energyChecks();       // glints on average
+std::vector<Check> coneChecks();         // lights of any width
 std::vector<Check> hardPixelChecks();    // footprints, materials and lights at their limits
 std::vector<Check> polygonChecks();      // area lights over a cosine
 std::vector<Check> areaLightChecks();    // area lights over transformed cosines

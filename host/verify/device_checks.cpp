@@ -34,7 +34,7 @@ Finding structLayouts(const CheckContext& context) {
       offsetof(MaterialParams, surface.f0),
       offsetof(MaterialParams, glints.palette),
       offsetof(ConeLight, irradiance),
-      offsetof(LightParams, variance),
+      offsetof(LightParams, one_minus_cos),
       offsetof(LightParams, tap_count),
       offsetof(FrameParams, light_count),
       offsetof(FrameParams, plane_stride)};

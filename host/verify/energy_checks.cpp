@@ -1,21 +1,16 @@
-// Glints on average are the smooth lobe, and become it pixel by pixel as they get denser; the lobe
-// under a cone of light is the mean over the cone.
+// Glints on average are the smooth lobe, and become it pixel by pixel as they get denser.
 #include <fmt/format.h>
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "host/harness/pixel_harness.h"
 #include "host/harness/random_pixels.h"
 #include "host/harness/tolerances.h"
-#include "host/reference/light_cone.h"
 #include "host/verify/check_groups.h"
 
 namespace glintmark {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 // Pixels of one view and light, all over a large surface: every one has cells of its own.
 HandMadeFrame spreadPixels(std::size_t count, double size, double aspect) {
@@ -182,108 +177,6 @@ Finding palette(const CheckContext& context) {
   return finding;
 }
 
-// --- Light cones ---------------------------------------------------------------------------------
-
-constexpr int kConeSamples = 40000;
-
-glm::dvec3 direction(double angle_deg, double turn_deg) {
-  const double a = angle_deg * kDegree, t = turn_deg * kDegree;
-  return {std::sin(a) * std::cos(t), std::sin(a) * std::sin(t), std::cos(a)};
-}
-
-HandMadeFrame onePixel(const glm::dvec3& light, const glm::dvec3& view, double half_angle_rad) {
-  HandMadeFrame frame;
-  frame.pixels.resize(1);
-  frame.pixels[0].frame = flatFrame();
-  frame.ray_origin = -view;
-  frame.lights = {coneLight(light, half_angle_rad)};
-  return frame;
-}
-
-double kernelSmooth(const CheckContext& context, const HandMadeFrame& frame, bool diffuse) {
-  KernelConfig config;
-  config.width = context.lanes;
-  config.glint = config.size_variation = false;
-  config.light_cone = true;
-  config.diffuse = diffuse;
-  return shadePixels(context.bench, frame, config).radiance[0].x;
-}
-
-// Error of the kernel's lobe relative to the brightest of that view.
-double coneError(const CheckContext& context, const glm::dvec3& axis, double view_deg,
-                 double half_rad, const glm::dvec2& alpha) {
-  const glm::dvec3 view = direction(view_deg, 0);
-  HandMadeFrame frame = onePixel(axis, view, half_rad);
-  frame.material = simpleMaterial({static_cast<float>(alpha.x), static_cast<float>(alpha.y)},
-                                  {0.05f, 0.05f}, 1e6f);
-  const auto brute_force = [&](const glm::dvec3& towards) {
-    return reference::coneRadiance({towards, half_rad}, view, alpha, glm::dvec3(1.0), kConeSamples)
-        .x;
-  };
-  const double want = brute_force(axis), brightest = brute_force(direction(view_deg, 180));
-  return std::abs(kernelSmooth(context, frame, false) - want) / std::max(brightest, want);
-}
-
-Finding coneLobe(const CheckContext& context, double half_deg) {
-  Finding finding(kWorstConeTolerance);
-  for (const glm::dvec2& alpha : {glm::dvec2(0.1), glm::dvec2(0.3), glm::dvec2(0.5, 0.15)}) {
-    double sum = 0, count = 0;
-    for (const double view_deg : {0.0, 30.0, 60.0, 80.0})
-      for (const double light_deg : {0.0, 20.0, 50.0, 75.0, 85.0, 95.0}) {
-        const double error =
-            coneError(context, direction(light_deg, 160), view_deg, half_deg * kDegree, alpha);
-        finding.add(error);
-        sum += error;
-        ++count;
-      }
-    finding.require(sum / count < kMeanConeTolerance, fmt::format("mean error {}", sum / count));
-  }
-  return finding;
-}
-
-Finding coneDiffuse(const CheckContext& context, double half_deg) {
-  Finding finding(kConeDiffuseTolerance / std::numbers::pi);
-  for (const double light_deg : {0.0, 40.0, 80.0, 95.0}) {
-    const glm::dvec3 axis = direction(light_deg, 160);
-    HandMadeFrame frame = onePixel(axis, {0, 0, 1}, half_deg * kDegree);
-    frame.material = simpleMaterial({0.3f, 0.3f}, {0.05f, 0.05f}, 1e6f);
-    frame.material.surface.intensity = 0;
-    frame.material.surface.albedo = {1, 1, 1, 0};
-    const double want = reference::coneDiffuse({axis, half_deg * kDegree}, kConeSamples);
-    finding.add(std::abs(kernelSmooth(context, frame, true) - want));
-  }
-  return finding;
-}
-
-// The mean over many pixels of glints is the smooth lobe for lights of every size.
-Finding coneGlints(const CheckContext& context, double half_deg) {
-  HandMadeFrame frame = onePixel(direction(40, 160), direction(20, 0), half_deg * kDegree);
-  frame.material = simpleMaterial({0.3f, 0.3f}, {0.05f, 0.05f}, 1e7f, 1);
-  const double smooth = kernelSmooth(context, frame, false);
-  const HandMadePixel prototype = frame.pixels[0];
-  frame.pixels.clear();
-  for (int i = 0; i < 1 << 16; ++i) {
-    HandMadePixel pixel = prototype;
-    pixel.footprint.u = fixedCoordinate(0.0123 * (i % 256));
-    pixel.footprint.v = fixedCoordinate(0.0117 * (i / 256));
-    pixel.footprint.duv_dx = {3e-3, 1e-3};
-    pixel.footprint.duv_dy = {-1e-3, 4e-3};
-    frame.pixels.push_back(pixel);
-  }
-  Finding finding(kEnergyTolerance);
-  for (const GlintMethod method : {GlintMethod::kZk16, GlintMethod::kExact}) {
-    KernelConfig config;
-    config.width = context.lanes;
-    config.light_cone = true;
-    config.method = method;
-    double sum = 0;
-    for (const glm::vec3& radiance : shadePixels(context.bench, frame, config).radiance)
-      sum += radiance.x;
-    finding.add(std::abs(sum / static_cast<double>(frame.pixels.size()) / smooth - 1));
-  }
-  return finding;
-}
-
 }  // namespace
 
 std::vector<Check> energyChecks() {
@@ -302,12 +195,6 @@ std::vector<Check> energyChecks() {
     add(group + "_dense", "worst pixel at density 1e13", densityToInfinity, kind);
   }
   checks.push_back({"energy/palette", "mean over the palette's - 1", palette});
-  for (const int half_deg : {0, 1, 5, 15, 45, 90}) {
-    const std::string group = "cone/" + std::to_string(half_deg) + "deg_";
-    add(group + "lobe", "error over the brightest", coneLobe, half_deg);
-    add(group + "diffuse", "absolute error", coneDiffuse, half_deg);
-    add(group + "glints", "mean over the smooth lobe - 1", coneGlints, half_deg);
-  }
   return checks;
 }
 

@@ -56,19 +56,16 @@ TEST(Lights, TapsLieInTheConeAndAverageToItsAxis) {
   }
 }
 
-TEST(Lights, VarianceIsThatOfDirectionsInTheCone) {
-  for (const double half_deg : {1.0, 20.0, 60.0, 90.0}) {
-    const double cosine = std::cos(half_deg * kDegree);
-    // E[x^2] over a cap: by quadrature over its height.
-    double sum = 0;
-    constexpr int kSteps = 100000;
-    for (int i = 0; i < kSteps; ++i) {
-      const double height = cosine + (1 - cosine) * (i + 0.5) / kSteps;
-      sum += 0.5 * (1 - height * height) / kSteps;
-    }
-    EXPECT_NEAR(coneVariance(cosine) / sum, 1, 1e-6);
+TEST(Lights, TheConeIsItsHalfAngle) {
+  for (const double half_deg : {0.01, 1.0, 20.0, 60.0, 90.0}) {
+    const ConeLight light = cone(half_deg);
+    const LightParams params = prepareLights({&light, 1}).lights[0];
+    const double angle = light.direction.w;
+    EXPECT_NEAR(params.one_minus_cos / (2 * std::pow(std::sin(angle / 2), 2)), 1, 1e-6);
+    EXPECT_NEAR(params.cotangent * std::tan(angle), 1, half_deg == 90 ? 1 : 1e-6);
   }
-  EXPECT_EQ(coneVariance(1), 0);
+  const ConeLight point = cone(0);
+  EXPECT_EQ(prepareLights({&point, 1}).lights[0].one_minus_cos, 0);
 }
 
 TEST(Lights, SeveralLightsShareTheTapBuffer) {

@@ -125,7 +125,7 @@ TEST(Switches, AbsentEffectsLeaveNoFunctionBehind) {
        &KernelConfig::glint,
        {"glintRatio", "coherentIndex", "hashDirection", "makeFootprint", "makeBinomialOdds"}},
       {"GLINT_COLOUR", &KernelConfig::glint_colour, {"colourWheel", "cellColour"}},
-      {"LIGHT_CONE", &KernelConfig::light_cone, {"widenedAlpha"}},
+      {"LIGHT_CONE", &KernelConfig::light_cone, {"coneLobe"}},
       {"GROOVE", &KernelConfig::groove, {"grooveDensity"}},
       {"SIZE_VARIATION", &KernelConfig::size_variation, {"byteSum"}},
       {"COUNT_CELLS", &KernelConfig::count_cells, {"cell_counts"}}};

@@ -34,11 +34,6 @@ void appendTaps(const glm::dvec3& axis, double one_minus_cos, int count,
 
 }  // namespace
 
-double coneVariance(double cos_half_angle) {
-  const double c = cos_half_angle;
-  return 0.5 * (1.0 - (1.0 + c + c * c) / 3.0);
-}
-
 PreparedLights prepareLights(std::span<const ConeLight> lights) {
   PreparedLights prepared;
   for (const ConeLight& light : lights) {
@@ -56,8 +51,8 @@ PreparedLights prepareLights(std::span<const ConeLight> lights) {
     const auto power = [&](float e) { return static_cast<float>(e * 2.0 / (2.0 - one_minus_cos)); };
     params.power = {power(light.irradiance.x), power(light.irradiance.y), power(light.irradiance.z),
                     0};
-    params.variance = static_cast<float>(coneVariance(1.0 - one_minus_cos));
-    params.tap_variance = static_cast<float>(coneVariance(1.0 - one_minus_cos / count));
+    params.one_minus_cos = static_cast<float>(one_minus_cos);
+    params.cotangent = half_angle > 0 ? static_cast<float>((1.0 - one_minus_cos) / std::sin(half_angle)) : 0;
     params.first_tap = static_cast<uint>(prepared.taps.size());
     params.tap_count = static_cast<uint>(count);
     prepared.lights.push_back(params);
