@@ -53,8 +53,13 @@ inline constexpr double kEnergyTolerance = 0.01;
 inline constexpr double kNarrowConeTolerance = 0.02, kWideConeTolerance = 0.2;
 inline constexpr double kConeNarrow_deg = 45;
 /// The share of reflecting microdetails under a cone, relative, up to a half-angle of 20 degrees
-/// and beyond.
+/// and beyond. A microdetail's own share is taken for that of an ellipse, which a cone's half
+/// vectors fill where neither the horizon cuts them nor a grazing view bends them.
 inline constexpr double kConeProbability = 0.05, kWideConeProbability = 0.15;
+/// Chords across a groove are taken one by one, which the horizon's edge defeats.
+inline constexpr double kWideGrooveProbability = 0.25;
+/// Anywhere, as a factor.
+inline constexpr double kProbabilityMagnitude = 5;
 inline constexpr double kConeDiffuseTolerance = 0.002;
 
 /// Form factors: single precision over a dozen terms of at most 1/2, and the edge fit's 1e-7.

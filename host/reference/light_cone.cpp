@@ -110,73 +110,60 @@ std::vector<WeightedSlope> halfVectorSlopes(const Cone& light, const glm::dvec3&
   return slopes;
 }
 
-// Climbs to a maximum of the lobe's mass by mean shift; `free`: the axes along which it may move.
-double climbedMass(const std::vector<WeightedSlope>& slopes, glm::dvec2 centre,
-                   const glm::dvec2& free) {
+// Of a lobe within a cone: its mass, and the mean slope of that mass.
+struct LobePart {
   double mass = 0;
-  for (int step = 0; step < 30; ++step) {
-    glm::dvec2 sum(0.0);
-    mass = 0;
-    for (const WeightedSlope& s : slopes) {
-      const glm::dvec2 d = s.y - centre;
-      const double density = s.area * std::exp(-glm::dot(d, d));
-      mass += density;
-      sum += density * d;
-    }
-    if (mass <= 0) break;
-    const glm::dvec2 move = free * sum / mass;
-    centre += move;
-    if (glm::dot(move, move) < 1e-6) break;
-  }
-  return mass / std::numbers::pi;
-}
+  glm::dvec2 mean{0};  // in units of alpha
+};
 
-// Share of a lobe around slope `centre` / alpha that mirrors the light.
-double countedMass(const Cone& light, const glm::dvec3& o, const glm::dvec2& alpha,
-                   const glm::dvec2& centre, int samples) {
-  int inside = 0;
-  forEachSlope(samples, [&](const glm::dvec2& y) {
-    const glm::dvec3 m = glm::normalize(glm::dvec3((y + centre) * alpha, 1.0));
-    const glm::dvec3 i = 2.0 * glm::dot(o, m) * m - o;
-    if (glm::dot(o, m) > 0 && i.z > 0 && holds(light, i)) ++inside;
-  });
-  return static_cast<double>(inside) / samples;
-}
-
-// The greatest share of a microdetail's lobe. Cones narrower than the lobe are resolved by their
-// own directions, wider ones by the lobe's slopes.
-double greatestMass(const Cone& light, const glm::dvec3& o, const glm::dvec2& alpha,
-                    const glm::dvec2& free, int samples) {
+// Around slope `centre` / alpha. Cones narrower than the lobe are resolved by their own directions,
+// wider ones by the lobe's slopes.
+LobePart partWithin(const Cone& light, const glm::dvec3& o, const glm::dvec2& alpha,
+                    const glm::dvec2& centre, const std::vector<WeightedSlope>& slopes,
+                    int samples) {
   constexpr double kNarrowArea = 30;  // in units of alpha^2
-  constexpr std::size_t kClimbs = 6, kCounts = 64;
-  const std::vector<WeightedSlope> slopes = halfVectorSlopes(light, o, alpha, samples);
-  if (slopes.empty()) return 0;
-  double area = 0, best = 0;
-  for (const WeightedSlope& s : slopes) area += s.area;
-  const bool narrow = area < kNarrowArea;
-  const std::size_t starts = narrow ? kClimbs : kCounts;
-  for (std::size_t k = 0; k < starts; ++k) {
-    const glm::dvec2 centre = free * slopes[k * (slopes.size() - 1) / (starts - 1)].y;
-    best = std::max(best, narrow ? climbedMass(slopes, centre, free)
-                                 : countedMass(light, o, alpha, centre, samples / 4));
+  double area = 0;
+  LobePart part;
+  for (const WeightedSlope& s : slopes) {
+    const glm::dvec2 d = s.y - centre;
+    const double mass = s.area * std::exp(-glm::dot(d, d)) / std::numbers::pi;
+    area += s.area;
+    part.mass += mass;
+    part.mean += mass * s.y;
   }
-  return best;
+  if (area >= kNarrowArea) {
+    part = {};
+    forEachSlope(samples, [&](const glm::dvec2& y) {
+      const glm::dvec3 m = glm::normalize(glm::dvec3((y + centre) * alpha, 1.0));
+      const glm::dvec3 i = 2.0 * glm::dot(o, m) * m - o;
+      if (glm::dot(o, m) <= 0 || i.z <= 0 || !holds(light, i)) return;
+      part.mass += 1.0 / samples;
+      part.mean += (y + centre) / static_cast<double>(samples);
+    });
+  }
+  if (part.mass > 0) part.mean /= part.mass;
+  return part;
 }
 
 }  // namespace
 
 double coneProbability(const Cone& light, const glm::dvec3& o, const glm::dvec2& alpha_g,
                        const glm::dvec2& alpha_l, bool groove, int samples) {
-  double share = 0;
-  forEachSlope(samples, [&](const glm::dvec2& y) {
-    const glm::dvec3 m = glm::normalize(glm::dvec3(y * alpha_g, 1.0));
-    const glm::dvec3 i = 2.0 * glm::dot(o, m) * m - o;
-    share += glm::dot(o, m) > 0 && i.z > 0 && holds(light, i) ? 1.0 / samples : 0.0;
-  });
+  const LobePart all = partWithin(light, o, alpha_g, glm::dvec2(0.0),
+                                  halfVectorSlopes(light, o, alpha_g, samples), samples);
+  if (all.mass <= 0) return 0;
   const glm::dvec2 detail = groove ? glm::dvec2(alpha_g.x, alpha_l.y) : alpha_l;
-  const double best =
-      greatestMass(light, o, detail, groove ? glm::dvec2(0, 1) : glm::dvec2(1), samples);
-  return best > 0 ? std::min(share / best, 1.0) : 0.0;
+  const glm::dvec2 free = groove ? glm::dvec2(0, 1) : glm::dvec2(1);
+  const std::vector<WeightedSlope> slopes = halfVectorSlopes(light, o, detail, samples);
+  glm::dvec2 centre = free * all.mean * alpha_g / detail;
+  double best = 0;
+  for (int step = 0; step < 12; ++step) {  // mean shift
+    const LobePart part = partWithin(light, o, detail, centre, slopes, samples);
+    best = std::max(best, part.mass);
+    if (part.mass <= 0) break;
+    centre += free * (part.mean - centre);
+  }
+  return best > 0 ? std::min(all.mass / best, 1.0) : 0.0;
 }
 
 }  // namespace glintmark::reference

@@ -22,8 +22,9 @@ glm::dvec3 coneRadiance(const Cone& light, const glm::dvec3& o, const glm::dvec2
 double coneDiffuse(const Cone& light, int samples);
 
 /// [ZK16] Eq. 7 for a cone: the share of the lobe's slopes that mirror some of the light into the
-/// eye, over the greatest share that one microdetail's lobe can have, wherever it points. Grooves
-/// point across themselves only; along them the lobe is the global one. At most 1; 0 out of reach.
+/// eye, over the share of one microdetail's lobe that does, where it points best: the peak that is
+/// climbed to from the mean of those slopes. Grooves point across themselves only; along them the
+/// lobe is the global one. At most 1; 0 out of reach.
 double coneProbability(const Cone& light, const glm::dvec3& o, const glm::dvec2& alpha_g,
                        const glm::dvec2& alpha_l, bool groove, int samples);
 

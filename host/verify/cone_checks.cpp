@@ -61,8 +61,9 @@ std::vector<ProbedCone> probe(const CheckContext& context, std::vector<ConeCase>
       upload(device, in, BufferPurpose::kProbe), output, static_cast<std::uint32_t>(n),
       upload(device, std::vector{material}, BufferPurpose::kProbe),
       upload(device, prepareLights(light).lights, BufferPurpose::kProbe)};
-  probeKernel(context.bench, "probes/probe_cone.cl", "probeCone",
-              fmt::format("-D WIDTH={} -D LIGHT_CONE=1 -D GROOVE={}", context.lanes, groove ? 1 : 0))
+  probeKernel(
+      context.bench, "probes/probe_cone.cl", "probeCone",
+      fmt::format("-D WIDTH={} -D LIGHT_CONE=1 -D GROOVE={}", context.lanes, groove ? 1 : 0))
       .launch(args, n / static_cast<std::size_t>(context.lanes), kLocalSize);
   output.read(out.data(), out.size() * 4);
   std::vector<ProbedCone> result;
@@ -83,16 +84,17 @@ std::vector<ConeCase> randomCases(const glm::dvec2& alpha, double half_rad, unsi
     const glm::dvec3 m =
         glm::normalize(glm::dvec3(alpha.x * normal(random), alpha.y * normal(random), 1));
     const double lowest = -std::min(half_rad, 1.0);
-    c.axis = i % 2 == 0 ? 2 * glm::dot(c.view, m) * m - c.view
-                        : raised(lowest + (0.5 * std::numbers::pi - lowest) * unit(random),
-                                 turn(random));
+    c.axis = i % 2 == 0
+                 ? 2 * glm::dot(c.view, m) * m - c.view
+                 : raised(lowest + (0.5 * std::numbers::pi - lowest) * unit(random), turn(random));
   }
   return cases;
 }
 
 // The brightest that a light of this size brings to the view, near the mirrored direction.
 double brightest(const ConeCase& c, double half_rad, const glm::dvec2& alpha) {
-  const double azimuth = std::atan2(-c.view.y, -c.view.x), elevation = std::asin(c.view.z);
+  const double azimuth = std::atan2(-c.view.y, -c.view.x),
+               elevation = std::asin(std::min(c.view.z, 1.0));
   double most = 0;
   for (const double higher_deg : {0.0, 1.0, 3.0, 10.0, 20.0}) {
     const double angle = std::min(elevation + higher_deg * kDegree, 0.5 * std::numbers::pi);
@@ -125,8 +127,8 @@ Finding lobe(const CheckContext& context, ConeKind kind) {
     const auto probed = probe(context, cases, materialOf(alpha, 0.3), half_rad, kind.groove);
     for (std::size_t i = 0; i < cases.size(); ++i) {
       const ConeCase& c = cases[i];
-      const double want = reference::coneRadiance({c.axis, half_rad}, c.view, alpha, glm::dvec3(1),
-                                                  kSamples).x;
+      const double want =
+          reference::coneRadiance({c.axis, half_rad}, c.view, alpha, glm::dvec3(1), kSamples).x;
       const double most = std::max(brightest(c, half_rad, alpha), want);
       finding.add(std::abs(probed[i].specular * power - want) / std::max(most, 1e-30));
     }
@@ -134,10 +136,14 @@ Finding lobe(const CheckContext& context, ConeKind kind) {
   return finding;
 }
 
-// The share of reflecting microdetails, where it is at all likely.
+// The share of reflecting microdetails, where it is at all likely: what nine of ten lights above
+// the horizon stay below. Where the horizon cuts a cone only the magnitude is asked for.
 Finding probability(const CheckContext& context, ConeKind kind) {
   const double half_rad = kind.half_deg * kDegree;
-  Finding finding(kind.half_deg <= 20 ? kConeProbability : kWideConeProbability);
+  Finding finding(kind.half_deg <= 20 ? kConeProbability
+                  : kind.groove       ? kWideGrooveProbability
+                                      : kWideConeProbability);
+  std::vector<double> errors;
   unsigned seed = 100;
   for (const glm::dvec2& alpha : kRoughness)
     for (const double micro : {0.15, 0.5, 0.9}) {
@@ -146,11 +152,23 @@ Finding probability(const CheckContext& context, ConeKind kind) {
       const auto probed = probe(context, cases, materialOf(alpha, micro), half_rad, kind.groove);
       for (std::size_t i = 0; i < cases.size(); ++i) {
         const ConeCase& c = cases[i];
+        // The horizon cuts every hemisphere of light but that of the zenith.
+        const bool whole = std::asin(c.axis.z) >= (kind.half_deg < 90 ? half_rad : 0);
+        // Grooves mirror nothing far along them, and a share of nothing is not asked for.
+        const glm::dvec3 sum = c.axis + c.view;
+        if (kind.groove && (!whole || std::abs(sum.x) > 3 * alpha.x * sum.z)) continue;
         const double want = reference::coneProbability({c.axis, half_rad}, c.view, alpha,
                                                        micro * alpha, kind.groove, kSamples);
-        if (want > 0.02) finding.add(std::abs(probed[i].probability / want - 1));
+        if (want < 0.02) continue;
+        const double ratio = probed[i].probability / want;
+        finding.require(ratio > 1 / kProbabilityMagnitude && ratio < kProbabilityMagnitude,
+                        fmt::format("a light at {:.1f} degrees has {:.2g} times its share",
+                                    std::asin(c.axis.z) / kDegree, ratio));
+        if (whole) errors.push_back(std::abs(ratio - 1));
       }
     }
+  std::sort(errors.begin(), errors.end());
+  if (!errors.empty()) finding.add(errors[errors.size() * 9 / 10]);
   return finding;
 }
 
@@ -180,9 +198,12 @@ Finding mapped(const CheckContext& context, double half_deg) {
     Buffer output(device, out.size() * 4, BufferPurpose::kProbe, "mapped lobes under cones");
     const std::vector<ConeLight> light = {coneLight({0, 0, 1}, half_rad)};
     const std::vector<KernelArg> args = {
-        upload(device, in, BufferPurpose::kProbe), output, static_cast<std::uint32_t>(n_padded),
+        upload(device, in, BufferPurpose::kProbe),
+        output,
+        static_cast<std::uint32_t>(n_padded),
         upload(device, prepareLights(light).lights, BufferPurpose::kProbe),
-        static_cast<float>(alpha), 0.0f};
+        static_cast<float>(alpha),
+        0.0f};
     probeKernel(context.bench, "probes/probe_mapped_cone.cl", "probeMappedCone",
                 fmt::format("-D WIDTH={} -D LIGHT_CONE=1 -D NORMAL_MAP=1 -D LOBES=1 -D DIFFUSE=1",
                             context.lanes))
@@ -190,9 +211,9 @@ Finding mapped(const CheckContext& context, double half_deg) {
     output.read(out.data(), out.size() * 4);
     for (std::size_t i = 0; i < cases.size(); ++i) {
       const ConeCase c = {toLobe(toMesh(cases[i].axis)), toLobe(toMesh(cases[i].view))};
-      const double want =
-          reference::coneRadiance({c.axis, half_rad}, c.view, glm::dvec2(alpha), glm::dvec3(1),
-                                  kSamples).x;
+      const double want = reference::coneRadiance({c.axis, half_rad}, c.view, glm::dvec2(alpha),
+                                                  glm::dvec3(1), kSamples)
+                              .x;
       const double most = std::max(brightest(c, half_rad, glm::dvec2(alpha)), want);
       finding.add(std::abs(out[i] * power - want) / std::max(most, 1e-30));
     }

@@ -52,7 +52,8 @@ PreparedLights prepareLights(std::span<const ConeLight> lights) {
     params.power = {power(light.irradiance.x), power(light.irradiance.y), power(light.irradiance.z),
                     0};
     params.one_minus_cos = static_cast<float>(one_minus_cos);
-    params.cotangent = half_angle > 0 ? static_cast<float>((1.0 - one_minus_cos) / std::sin(half_angle)) : 0;
+    params.cotangent =
+        half_angle > 0 ? static_cast<float>((1.0 - one_minus_cos) / std::sin(half_angle)) : 0;
     params.first_tap = static_cast<uint>(prepared.taps.size());
     params.tap_count = static_cast<uint>(count);
     prepared.lights.push_back(params);
