@@ -34,7 +34,7 @@ struct ConeCase {
 };
 
 struct ProbedCone {
-  double specular, cosine, probability;
+  double specular, cosine, probability, cell_side;
 };
 
 // Lobes under one light and material, for many directions of both light and view. Directions are
@@ -42,7 +42,7 @@ struct ProbedCone {
 std::vector<ProbedCone> probe(const CheckContext& context, std::vector<ConeCase>& cases,
                               const MaterialParams& material, double half_rad, bool groove) {
   const std::size_t n = paddedCount(cases.size());
-  std::vector<float> in(6 * n), out(4 * n);
+  std::vector<float> in(6 * n), out(5 * n);
   for (std::size_t i = 0; i < n; ++i) {
     const ConeCase& c = cases[std::min(i, cases.size() - 1)];
     for (int k = 0; k < 3; ++k) {
@@ -68,7 +68,7 @@ std::vector<ProbedCone> probe(const CheckContext& context, std::vector<ConeCase>
   output.read(out.data(), out.size() * 4);
   std::vector<ProbedCone> result;
   for (std::size_t i = 0; i < cases.size(); ++i)
-    result.push_back({out[i], out[2 * n + i], out[3 * n + i]});
+    result.push_back({out[i], out[2 * n + i], out[3 * n + i], out[4 * n + i]});
   return result;
 }
 
@@ -221,6 +221,21 @@ Finding mapped(const CheckContext& context, double half_deg) {
   return finding;
 }
 
+// The half-vector cell, paraboloid-mapped, seen along the normal: the disc of half vectors over the
+// share of a microdetail's lobe within it, in closed form.
+Finding halfVectorCell(const CheckContext& context, double half_deg) {
+  const double half_rad = half_deg * kDegree;
+  Finding finding(half_deg <= 20 ? kConeProbability : kWideConeProbability);
+  for (const double alpha : {0.01, 0.05, 0.2, 0.6}) {
+    std::vector<ConeCase> cases = {{{0, 0, 1}, {0, 0, 1}}};
+    const auto probed = probe(context, cases, materialOf({1, 1}, alpha), half_rad, false);
+    const double slope = std::tan(half_rad / 2) / alpha, disc = std::tan(half_rad / 4);
+    const double share = -std::expm1(-slope * slope);
+    finding.add(std::abs(probed[0].cell_side / (std::sqrt(std::numbers::pi / share) * disc) - 1));
+  }
+  return finding;
+}
+
 Finding diffuse(const CheckContext& context, double half_deg) {
   Finding finding(kConeDiffuseTolerance / std::numbers::pi);
   std::vector<ConeCase> cases;
@@ -285,6 +300,7 @@ std::vector<Check> coneChecks() {
     add(group + "mapped", "error over the brightest", mapped, half_deg);
     add(group + "probability", "relative error", probability, ConeKind{half_deg, false});
     add(group + "groove_probability", "relative error", probability, ConeKind{half_deg, true});
+    add(group + "half_vector_cell", "relative error of its side", halfVectorCell, half_deg);
     add(group + "diffuse", "absolute error", diffuse, half_deg);
     add(group + "glints", "mean over the smooth lobe - 1", glints, half_deg);
   }

@@ -1,12 +1,12 @@
 // Runs the smooth lobe under cones of light over arrays. Compiled with -D LIGHT_CONE=1.
-#include "glint/cone_light.clh"
+#include "glint/glint.clh"
 
 WIDE vfloat loadFloat(global const float* p, size_t i) {
   return bitsToFloat(loadUint((global const uint*)p, i));
 }
 
 // in: planes of `count` entries: light (3), view (3), both local frame and unit, view.z > 0.
-// out: specular, schlick, cosine, probability.
+// out: specular, schlick, cosine, probability, side of a half-vector cell along u.
 kernel void probeCone(global const float* in, global float* out, uint count,
                       constant const MaterialParams* material, constant const LightParams* light) {
   const size_t i = get_global_id(0) * WIDTH;
@@ -20,4 +20,5 @@ kernel void probeCone(global const float* in, global float* out, uint count,
   storeFloat(lobe.schlick, out, count + i);
   storeFloat(lobe.cosine, out, 2 * count + i);
   storeFloat(lobe.probability, out, 3 * count + i);
+  storeFloat(halfVectorSide(material->glints.alpha_l.x, light->direction.w), out, 4 * count + i);
 }
