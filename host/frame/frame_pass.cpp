@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "host/core/float4.h"
 #include "host/core/stopwatch.h"
 #include "host/core/trace.h"
 #include "host/frame/all_materials.h"
@@ -14,10 +15,6 @@ namespace glintmark {
 namespace {
 
 constexpr std::size_t kLocalSize = 64;
-
-float4 toFloat4(const glm::dvec3& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0};
-}
 
 struct AllMaterials {
   Buffer buffer;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "host/core/error.h"
+#include "host/core/float4.h"
 #include "host/core/planes.h"
 #include "host/frame/effect/lights.h"
 #include "host/frame/effects.h"
@@ -15,10 +16,6 @@ namespace glintmark {
 namespace {
 
 constexpr std::uint32_t kLimitedBit = 0x80000000u;
-
-float4 toFloat4(const glm::dvec3& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0};
-}
 
 std::uint32_t bitsOf(double value) {
   return std::bit_cast<std::uint32_t>(static_cast<float>(value));

@@ -1,7 +1,6 @@
 // The tables' texts: columns, what is not valid, what they show.
 #include <gtest/gtest.h>
 
-
 #include "host/experiment/effects/effects_table.h"
 #include "host/experiment/msbrdf/msbrdf_table.h"
 #include "host/experiment/paper_gpu.h"
