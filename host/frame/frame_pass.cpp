@@ -102,10 +102,8 @@ Buffer FramePass::materialBuffer(const Material& material, const KernelConfig& c
   if (!config.all_materials)
     return upload(device_, std::vector{material.params}, BufferPurpose::kMaterials);
   return resources_
-      .kept<AllMaterials>([&] {
-        return std::make_shared<AllMaterials>(
-            AllMaterials{uploadMaterials(device_, scene_, options_, config.width)});
-      })
+      .kept<AllMaterials>(
+          [&] { return AllMaterials{uploadMaterials(device_, scene_, options_, config.width)}; })
       .buffer;
 }
 

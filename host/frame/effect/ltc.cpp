@@ -30,8 +30,7 @@ void chooseForAll(std::span<const KernelConfig> own, const ShadingOptions&, Kern
 
 AreaLightBuffers& buffersOf(FrameResources& frame) {
   return frame.kept<AreaLightBuffers>([&] {
-    return std::make_shared<AreaLightBuffers>(frame.device, frame.scene, frame.eye,
-                                              frame.options.ltc_table);
+    return AreaLightBuffers(frame.device, frame.scene, frame.eye, frame.options.ltc_table);
   });
 }
 
