@@ -136,6 +136,7 @@ ShadeArguments FramePass::argumentsOf(const Band& band, const PixelList& list,
   if (config.all_materials) arguments.add("owners", band.owners);
   arguments.add(kernel_.result, band.results);
   if (config.count_cells) arguments.add("cell_counts", band.counts);
+  for (const char* number : kernel_.numbers) arguments.add(number, std::uint32_t{0});
   return arguments;
 }
 
@@ -145,7 +146,9 @@ FramePass::Launch FramePass::makeLaunch(const Band& band, const PixelList& list)
   Program program = cache_.get(kernel_.file, config);
   build_ns_ += program.buildNs();
   Kernel kernel = program.kernel(kernel_.name);
-  return {list, config, std::move(program), std::move(kernel), argumentsOf(band, list, config)};
+  ShadeArguments arguments = argumentsOf(band, list, config);
+  arguments.requireNamesOf(kernel);
+  return {list, config, std::move(program), std::move(kernel), std::move(arguments)};
 }
 
 void FramePass::makeLaunches(Band& band) {
@@ -176,15 +179,18 @@ FrameTimes FramePass::prepare() {
   return times;
 }
 
-FrameTimes FramePass::launch(std::span<const std::pair<std::string, KernelArg>> last) {
+void FramePass::setNumber(std::string_view name, std::uint32_t value) {
+  for (Band& band : bands_)
+    for (Launch& launch : band.launches) launch.arguments.set(name, value);
+}
+
+FrameTimes FramePass::launch() {
   FrameTimes times;
   for (Band& band : bands_)
     for (Launch& launch : band.launches) {
       const auto width = static_cast<std::size_t>(launch.config.width);
       const std::size_t items = (launch.list.count + width - 1) / width;
-      ShadeArguments arguments = launch.arguments;
-      for (const auto& [name, value] : last) arguments.add(name, value);
-      const LaunchTimes t = launchShading(launch.kernel, arguments, items, kLocalSize);
+      const LaunchTimes t = launch.kernel.launch(launch.arguments.values(), items, kLocalSize);
       times.shading_event_ns += t.event_ns;
       times.shading_wall_ns += t.wall_ns;
       times.launch_event_ns.push_back(t.event_ns);
