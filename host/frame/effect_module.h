@@ -28,9 +28,13 @@ struct EffectModule {
   std::string_view name;  // "glints"
   EffectSet needs{};      // effects without which this one does nothing
 
-  bool (*called_for)(const Scene& scene);
-  /// Takes it out of a scene, or out of options; smooth lobes and Lambert's stand in.
-  void (*strip)(Scene& scene) = nullptr;
+  /// Does one of a scene's materials call for it, or the scene itself? An effect with neither is
+  /// called for where all that it needs is.
+  bool (*material_calls)(const Material& material) = nullptr;
+  bool (*scene_calls)(const Scene& scene) = nullptr;
+  /// Takes it out of a material, a scene or options; smooth lobes and Lambert's stand in.
+  void (*strip_material)(Material& material) = nullptr;
+  void (*strip_scene)(Scene& scene) = nullptr;
   void (*strip_options)(ShadingOptions& options) = nullptr;
 
   /// Sets its switches in a program; those of effects before it are set.

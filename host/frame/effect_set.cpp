@@ -1,8 +1,22 @@
 #include "host/frame/effect_set.h"
 
+#include <algorithm>
+
 #include "host/frame/effect_module.h"
 
 namespace glintmark {
+namespace {
+
+bool isCalledFor(const EffectModule& module, const Scene& scene) {
+  if (!module.scene_calls && !module.material_calls)
+    return std::ranges::all_of(module.needs.list(), [&](Effect needed) {
+      return isCalledFor(effectModule(needed), scene);
+    });
+  return (module.scene_calls && module.scene_calls(scene)) ||
+         (module.material_calls && std::ranges::any_of(scene.materials, module.material_calls));
+}
+
+}  // namespace
 
 const EffectModule& effectModule(Effect effect) {
   return *effectModules()[static_cast<std::size_t>(effect)];
@@ -47,7 +61,7 @@ EffectSet effectNeeds(Effect effect) {
 EffectSet effectsOf(const Scene& scene) {
   EffectSet set;
   for (const Effect effect : EffectSet::all().list())
-    if (effectModule(effect).called_for(scene)) set = set | EffectSet{effect};
+    if (isCalledFor(effectModule(effect), scene)) set = set | EffectSet{effect};
   return set;
 }
 
@@ -61,8 +75,11 @@ EffectSet effectsOf(const KernelConfig& config) {
 }
 
 Scene withEffects(Scene scene, EffectSet kept) {
-  for (const Effect effect : EffectSet::all().without(kept).list())
-    if (effectModule(effect).strip) effectModule(effect).strip(scene);
+  for (const Effect effect : EffectSet::all().without(kept).list()) {
+    const EffectModule& module = effectModule(effect);
+    if (module.strip_scene) module.strip_scene(scene);
+    if (module.strip_material) std::ranges::for_each(scene.materials, module.strip_material);
+  }
   return scene;
 }
 

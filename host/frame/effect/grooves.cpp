@@ -1,6 +1,4 @@
 // Microdetails in one dimension: grooves along u. [ZK16] Eq. 6
-#include <algorithm>
-
 #include "host/frame/effect_module.h"
 
 namespace glintmark {
@@ -8,16 +6,11 @@ namespace glintmark {
 const EffectModule& groovesEffect() {
   static const EffectModule module = {
       .name = "grooves",
-      .called_for =
-          [](const Scene& scene) {
-            return std::ranges::any_of(scene.materials, [](const Material& material) {
-              return material.has_glints && material.has_grooves;
-            });
-          },
-      .strip =
-          [](Scene& scene) {
-            for (Material& material : scene.materials)
-              if (material.has_grooves) material.has_glints = material.has_grooves = false;
+      .material_calls =
+          [](const Material& material) { return material.has_glints && material.has_grooves; },
+      .strip_material =
+          [](Material& material) {
+            if (material.has_grooves) material.has_glints = material.has_grooves = false;
           },
       .choose =
           [](const ProgramCall& call, KernelConfig& config) {

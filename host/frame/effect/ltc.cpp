@@ -39,8 +39,8 @@ AreaLightBuffers& buffersOf(FrameResources& frame) {
 const EffectModule& ltcEffect() {
   static const EffectModule module = {
       .name = "ltc",
-      .called_for = [](const Scene& scene) { return !scene.area_lights.empty(); },
-      .strip = [](Scene& scene) { scene.area_lights.clear(); },
+      .scene_calls = [](const Scene& scene) { return !scene.area_lights.empty(); },
+      .strip_scene = [](Scene& scene) { scene.area_lights.clear(); },
       .choose = choose,
       .is_in = [](const KernelConfig& config) { return config.ltc; },
       .bit = EFFECT_LTC,

@@ -85,16 +85,8 @@ void addArguments(FrameResources& frame, const Material& material, const KernelC
 const EffectModule& normalsEffect() {
   static const EffectModule module = {
       .name = "normals",
-      .called_for =
-          [](const Scene& scene) {
-            return std::ranges::any_of(scene.materials, [](const Material& material) {
-              return material.normal_map.has_value();
-            });
-          },
-      .strip =
-          [](Scene& scene) {
-            for (Material& material : scene.materials) material.normal_map.reset();
-          },
+      .material_calls = [](const Material& material) { return material.normal_map.has_value(); },
+      .strip_material = [](Material& material) { material.normal_map.reset(); },
       .choose = choose,
       .is_in = [](const KernelConfig& config) { return config.normal_map; },
       .bit = EFFECT_NORMAL_MAP,
