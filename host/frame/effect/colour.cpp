@@ -5,7 +5,6 @@ namespace glintmark {
 
 const EffectModule& colourEffect() {
   static const EffectModule module = {
-      .name = "colour",
       .needs = {Effect::kGlints},
       .material_calls =
           [](const Material& material) {
@@ -15,11 +14,7 @@ const EffectModule& colourEffect() {
       .choose =
           [](const ProgramCall& call, KernelConfig& config) {
             config.glint_colour = config.glint && call.material.has_colour;
-          },
-      .is_in = [](const KernelConfig& config) { return config.glint_colour; },
-      .bit = EFFECT_GLINT_COLOUR,
-      .choose_for_all = [](std::span<const KernelConfig>, const ShadingOptions&,
-                           KernelConfig& all) { all.glint_colour = true; }};
+          }};
   return module;
 }
 

@@ -13,22 +13,18 @@ void choose(const ProgramCall& call, KernelConfig& config) {
 // The parameters of both effects stand in one struct, which multiscatter adds where both are in.
 void addArguments(FrameResources& frame, const Material& material, const KernelConfig& config,
                   ShadeArguments& arguments) {
-  if (!multiscatterEffect().is_in(config)) addScattering(frame, material, config, arguments);
+  if (!effectsOf(config).has(Effect::kMultiscatter))
+    addScattering(frame, material, config, arguments);
 }
 
 }  // namespace
 
 const EffectModule& compensationEffect() {
   static const EffectModule module = {
-      .name = "compensation",
       .material_calls =
           [](const Material& material) { return material.compensation != Compensation::kOff; },
       .strip_material = [](Material& material) { material.compensation = Compensation::kOff; },
       .choose = choose,
-      .is_in = [](const KernelConfig& config) { return config.metal_compensation; },
-      .bit = EFFECT_METAL_COMPENSATION,
-      .choose_for_all = [](std::span<const KernelConfig>, const ShadingOptions&,
-                           KernelConfig& all) { all.metal_compensation = true; },
       .add_arguments = addArguments};
   return module;
 }

@@ -15,7 +15,6 @@ void strip(Scene& scene) {
 
 const EffectModule& environmentEffect() {
   static const EffectModule module = {
-      .name = "environment",
       .scene_calls = [](const Scene& scene) { return scene.environment.present; },
       .strip_scene = strip};
   return module;

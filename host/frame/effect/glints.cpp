@@ -14,7 +14,7 @@ void choose(const ProgramCall& call, KernelConfig& config) {
 }
 
 void chooseForAll(std::span<const KernelConfig>, const ShadingOptions& options, KernelConfig& all) {
-  all.glint = all.size_variation = true;
+  all.size_variation = true;
   setKnobs(options, &KernelConfig::glint, all);
 }
 
@@ -22,7 +22,6 @@ void chooseForAll(std::span<const KernelConfig>, const ShadingOptions& options, 
 
 const EffectModule& glintsEffect() {
   static const EffectModule module = {
-      .name = "glints",
       .material_calls =
           [](const Material& material) { return material.has_glints && !material.has_grooves; },
       .strip_material =
@@ -30,8 +29,6 @@ const EffectModule& glintsEffect() {
             if (!material.has_grooves) material.has_glints = false;
           },
       .choose = choose,
-      .is_in = [](const KernelConfig& config) { return config.glint; },
-      .bit = EFFECT_GLINT,
       .planes = {Plane::kUInt, Plane::kVInt, Plane::kUFrac, Plane::kVFrac, Plane::kDudx,
                  Plane::kDvdx, Plane::kDudy, Plane::kDvdy},
       .choose_for_all = chooseForAll};

@@ -24,7 +24,6 @@ void choose(const ProgramCall& call, KernelConfig& config) {
 }
 
 void chooseForAll(std::span<const KernelConfig> own, const ShadingOptions&, KernelConfig& all) {
-  all.ltc = true;
   if (!own.empty()) all.ggx = own.front().ggx;
 }
 
@@ -38,12 +37,9 @@ AreaLightBuffers& buffersOf(FrameResources& frame) {
 
 const EffectModule& ltcEffect() {
   static const EffectModule module = {
-      .name = "ltc",
       .scene_calls = [](const Scene& scene) { return !scene.area_lights.empty(); },
       .strip_scene = [](Scene& scene) { scene.area_lights.clear(); },
       .choose = choose,
-      .is_in = [](const KernelConfig& config) { return config.ltc; },
-      .bit = EFFECT_LTC,
       .planes = {Plane::kDepth},
       .agree = [](const KernelConfig& a, const KernelConfig& b) { return a.ggx == b.ggx; },
       .choose_for_all = chooseForAll,

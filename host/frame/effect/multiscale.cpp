@@ -18,7 +18,6 @@ void choose(const ProgramCall& call, KernelConfig& config) {
 
 const EffectModule& multiscaleEffect() {
   static const EffectModule module = {
-      .name = "multiscale",
       .needs = {Effect::kNormals, Effect::kLtc},
       .strip_options = [](ShadingOptions& options) { options.ltc_method = LtcMethod::kOriginal; },
       .choose = choose,

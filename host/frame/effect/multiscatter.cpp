@@ -37,13 +37,10 @@ void chooseForAll(std::span<const KernelConfig> own, const ShadingOptions&, Kern
 
 const EffectModule& multiscatterEffect() {
   static const EffectModule module = {
-      .name = "multiscatter",
       .material_calls =
           [](const Material& material) { return material.diffuse_model != DiffuseModel::kLambert; },
       .strip_material = [](Material& material) { material.diffuse_model = DiffuseModel::kLambert; },
       .choose = choose,
-      .is_in = isIn,
-      .bit = EFFECT_MULTISCATTER,
       .agree = agree,
       .choose_for_all = chooseForAll,
       .add_arguments = addScattering};

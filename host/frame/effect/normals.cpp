@@ -84,12 +84,9 @@ void addArguments(FrameResources& frame, const Material& material, const KernelC
 
 const EffectModule& normalsEffect() {
   static const EffectModule module = {
-      .name = "normals",
       .material_calls = [](const Material& material) { return material.normal_map.has_value(); },
       .strip_material = [](Material& material) { material.normal_map.reset(); },
       .choose = choose,
-      .is_in = [](const KernelConfig& config) { return config.normal_map; },
-      .bit = EFFECT_NORMAL_MAP,
       .planes = {Plane::kUFrac, Plane::kVFrac, Plane::kDudx, Plane::kDvdx, Plane::kDudy,
                  Plane::kDvdy},
       .agree = agree,
