@@ -16,7 +16,7 @@
 typedef struct SurfaceMaterial {
   float2 alpha_g;   // global roughness along u and v, (0, 1]
   float intensity;  // overall scale of the specular lobe, >= 0
-  uint effects;     // EFFECT_* of the material; read by ALL_MATERIALS programs only
+  uint effects;     // EFFECT_* bits of config.clh; read by ALL_MATERIALS programs only
   float4 f0;        // rgb reflectance at normal incidence; w unused
   float4 albedo;    // rgb diffuse albedo; w unused
 } SurfaceMaterial;
@@ -36,16 +36,6 @@ typedef struct MaterialParams {
   SurfaceMaterial surface;
   GlintMaterial glints;
 } MaterialParams;
-
-// What a material calls for, named like the switches of config.clh.
-#define EFFECT_GLINT 1u
-#define EFFECT_GROOVE 2u
-#define EFFECT_GLINT_COLOUR 4u
-#define EFFECT_DIFFUSE 8u
-#define EFFECT_NORMAL_MAP 16u
-#define EFFECT_LTC 32u
-#define EFFECT_MULTISCATTER 64u
-#define EFFECT_METAL_COMPENSATION 128u
 
 // A light at infinity that fills a cone of directions evenly. [ZK16] Sect. 4.3, Fig. 8
 typedef struct ConeLight {

@@ -1,10 +1,13 @@
-// The one list of tables, which `bench`, `accuracy`, `report`, the page and the documentation read.
+// The tables, which `bench`, `accuracy`, `report`, the page and the documentation read.
 #pragma once
 #include <vector>
 
 #include "host/experiment/bench_run.h"
 
 namespace glintmark {
+
+#define TABLE(function) BenchTable function();
+#include "host/experiment/all_tables.inc"
 
 /// In the order in which they are measured, printed and shown.
 std::vector<BenchTable> allTables();

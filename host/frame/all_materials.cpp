@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "host/frame/effects.h"
+#include "host/ocl/kernel_config.h"
 #include "host/ocl/upload.h"
 #include "host/raster/projection.h"
 

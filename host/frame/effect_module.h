@@ -2,7 +2,6 @@
 // host/frame/effect, as one of these.
 #pragma once
 #include <span>
-#include <string_view>
 
 #include "host/core/planes.h"
 #include "host/core/shared_types.h"
@@ -23,25 +22,30 @@ struct ProgramCall {
   bool truth = false;  // the ground truth's program, kernels/truth.cl
 };
 
-/// Functions that an effect has no use for are null.
+/// Functions that an effect has no use for are null. Its name and its switch stand in its row of
+/// host/ocl/switches.inc.
 struct EffectModule {
-  std::string_view name;  // "glints"
-  EffectSet needs{};      // effects without which this one does nothing
+  EffectSet needs{};  // effects without which this one does nothing
 
-  bool (*called_for)(const Scene& scene);
-  /// Takes it out of a scene, or out of options; smooth lobes and Lambert's stand in.
-  void (*strip)(Scene& scene) = nullptr;
+  /// Does one of a scene's materials call for it, or the scene itself? An effect with neither is
+  /// called for where all that it needs is.
+  bool (*material_calls)(const Material& material) = nullptr;
+  bool (*scene_calls)(const Scene& scene) = nullptr;
+  /// Takes it out of a material, a scene or options; smooth lobes and Lambert's stand in.
+  void (*strip_material)(Material& material) = nullptr;
+  void (*strip_scene)(Scene& scene) = nullptr;
   void (*strip_options)(ShadingOptions& options) = nullptr;
 
   /// Sets its switches in a program; those of effects before it are set.
   void (*choose)(const ProgramCall& call, KernelConfig& config) = nullptr;
+  /// Does a program hold it? Only of an effect that has no switch of its own.
   bool (*is_in)(const KernelConfig& config) = nullptr;
-  uint bit = 0;        // EFFECT_* of kernels/types.h
   PlaneMask planes{};  // what a program with it reads
 
   /// May two materials' programs, as far as this effect goes, become one?
   bool (*agree)(const KernelConfig& a, const KernelConfig& b) = nullptr;
-  /// Compiles it into a program for all materials; `own` holds the materials' own switches.
+  /// Compiles it into a program for all materials, where its switch is on already; `own` holds the
+  /// materials' own switches.
   void (*choose_for_all)(std::span<const KernelConfig> own, const ShadingOptions& options,
                          KernelConfig& all) = nullptr;
 
@@ -57,7 +61,10 @@ struct EffectModule {
 const EffectModule& effectModule(Effect effect);
 std::span<const EffectModule* const> effectModules();
 
-#define EFFECT(enumerator, module) const EffectModule& module();
-#include "host/frame/effect/all_effects.inc"
+/// Turns on its own switch, if it has one.
+void turnOn(Effect effect, KernelConfig& config);
+
+#define MODULE(enumerator, name) const EffectModule& name##Effect();
+#include "host/ocl/switches.inc"
 
 }  // namespace glintmark

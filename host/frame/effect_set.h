@@ -8,14 +8,16 @@
 #include <vector>
 
 #include "host/frame/shading_options.h"
+#include "host/ocl/kernel_config.h"
 #include "host/scene/scene.h"
 
 namespace glintmark {
 
-/// What a scene can call for beyond smooth lobes under cone lights.
+/// What a scene can call for beyond smooth lobes under cone lights: the rows EFFECT and MODULE of
+/// host/ocl/switches.inc.
 enum class Effect : unsigned {
-#define EFFECT(enumerator, module) enumerator,
-#include "host/frame/effect/all_effects.inc"
+#define MODULE(enumerator, ...) enumerator,
+#include "host/ocl/switches.inc"
   kCount
 };
 inline constexpr std::size_t kEffectCount = static_cast<std::size_t>(Effect::kCount);

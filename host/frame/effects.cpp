@@ -57,12 +57,6 @@ KernelConfig truthConfigFor(const Material& material, const Scene& scene,
   return chosenConfig({material, scene, options, true}, lanes);
 }
 
-uint effectBits(const KernelConfig& config) {
-  uint bits = config.diffuse ? EFFECT_DIFFUSE : 0;
-  for (const Effect effect : effectsOf(config).list()) bits |= effectModule(effect).bit;
-  return bits;
-}
-
 KernelConfig configForAll(const Scene& scene, const ShadingOptions& options, int lanes) {
   if (options.count_cells) throw Error("one program for all materials does not count cells");
   std::vector<KernelConfig> own;
@@ -75,8 +69,11 @@ KernelConfig configForAll(const Scene& scene, const ShadingOptions& options, int
   mapped.normal_map.emplace();
   KernelConfig all = configFor(mapped, scene, options, lanes);
   all.all_materials = all.cone_lights = all.diffuse = true;
-  for (const EffectModule* module : effectModules())
-    if (module->choose_for_all) module->choose_for_all(own, options, all);
+  for (const Effect effect : EffectSet::all().list()) {
+    turnOn(effect, all);
+    if (const EffectModule& module = effectModule(effect); module.choose_for_all)
+      module.choose_for_all(own, options, all);
+  }
   all.planes = planesFor(all);
   return all;
 }

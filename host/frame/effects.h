@@ -1,7 +1,6 @@
 // Which effects, and so which planes, a scene calls for. Nobody lists them by hand.
 #pragma once
 #include "host/core/planes.h"
-#include "host/core/shared_types.h"
 #include "host/frame/shading_options.h"
 #include "host/ocl/kernel_config.h"
 #include "host/scene/scene.h"
@@ -25,9 +24,6 @@ KernelConfig truthConfigFor(const Material& material, const Scene& scene,
 /// the model of multiple scattering, the NDF) is the scene's. Throws Error if materials differ in
 /// such a choice.
 KernelConfig configForAll(const Scene& scene, const ShadingOptions& options, int lanes);
-
-/// EFFECT_* bits of kernels/types.h that the material's kernel holds.
-uint effectBits(const KernelConfig& config);
 
 /// Planes that the programs of the frame read, and those of its ground truth.
 PlaneMask planesFor(const Scene& scene, const ShadingOptions& options);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "host/core/float4.h"
 #include "host/core/stopwatch.h"
 #include "host/core/trace.h"
 #include "host/frame/all_materials.h"
@@ -14,10 +15,6 @@ namespace glintmark {
 namespace {
 
 constexpr std::size_t kLocalSize = 64;
-
-float4 toFloat4(const glm::dvec3& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0};
-}
 
 struct AllMaterials {
   Buffer buffer;
@@ -105,10 +102,8 @@ Buffer FramePass::materialBuffer(const Material& material, const KernelConfig& c
   if (!config.all_materials)
     return upload(device_, std::vector{material.params}, BufferPurpose::kMaterials);
   return resources_
-      .kept<AllMaterials>([&] {
-        return std::make_shared<AllMaterials>(
-            AllMaterials{uploadMaterials(device_, scene_, options_, config.width)});
-      })
+      .kept<AllMaterials>(
+          [&] { return AllMaterials{uploadMaterials(device_, scene_, options_, config.width)}; })
       .buffer;
 }
 
@@ -141,6 +136,7 @@ ShadeArguments FramePass::argumentsOf(const Band& band, const PixelList& list,
   if (config.all_materials) arguments.add("owners", band.owners);
   arguments.add(kernel_.result, band.results);
   if (config.count_cells) arguments.add("cell_counts", band.counts);
+  for (const char* number : kernel_.numbers) arguments.add(number, std::uint32_t{0});
   return arguments;
 }
 
@@ -150,7 +146,9 @@ FramePass::Launch FramePass::makeLaunch(const Band& band, const PixelList& list)
   Program program = cache_.get(kernel_.file, config);
   build_ns_ += program.buildNs();
   Kernel kernel = program.kernel(kernel_.name);
-  return {list, config, std::move(program), std::move(kernel), argumentsOf(band, list, config)};
+  ShadeArguments arguments = argumentsOf(band, list, config);
+  arguments.requireNamesOf(kernel);
+  return {list, config, std::move(program), std::move(kernel), std::move(arguments)};
 }
 
 void FramePass::makeLaunches(Band& band) {
@@ -181,15 +179,18 @@ FrameTimes FramePass::prepare() {
   return times;
 }
 
-FrameTimes FramePass::launch(std::span<const std::pair<std::string, KernelArg>> last) {
+void FramePass::setNumber(std::string_view name, std::uint32_t value) {
+  for (Band& band : bands_)
+    for (Launch& launch : band.launches) launch.arguments.set(name, value);
+}
+
+FrameTimes FramePass::launch() {
   FrameTimes times;
   for (Band& band : bands_)
     for (Launch& launch : band.launches) {
       const auto width = static_cast<std::size_t>(launch.config.width);
       const std::size_t items = (launch.list.count + width - 1) / width;
-      ShadeArguments arguments = launch.arguments;
-      for (const auto& [name, value] : last) arguments.add(name, value);
-      const LaunchTimes t = launchShading(launch.kernel, arguments, items, kLocalSize);
+      const LaunchTimes t = launch.kernel.launch(launch.arguments.values(), items, kLocalSize);
       times.shading_event_ns += t.event_ns;
       times.shading_wall_ns += t.wall_ns;
       times.launch_event_ns.push_back(t.event_ns);

@@ -1,11 +1,10 @@
 // A rasterized view on the device, and the launches over its pixel lists: what frames and their
 // ground truth share.
 #pragma once
-#include <functional>
+#include <cstdint>
 #include <memory>
 #include <span>
-#include <string>
-#include <utility>
+#include <string_view>
 #include <vector>
 
 #include "host/core/planes.h"
@@ -25,10 +24,12 @@ struct PassKernel {
   const char* result;  // its name for the planes that it writes
   std::size_t result_planes;
   bool truth;
+  std::span<const char* const> numbers = {};  // its last arguments, which setNumber() gives
 };
 inline constexpr PassKernel kShadePass = {"shade.cl", "shade", "radiance", 3, false};
 /// Sums of radiance, then of its squares.
-inline constexpr PassKernel kTruthPass = {"truth.cl", "truth", "sums", 6, true};
+inline constexpr const char* kTruthNumbers[] = {"sample_begin", "sample_count"};
+inline constexpr PassKernel kTruthPass = {"truth.cl", "truth", "sums", 6, true, kTruthNumbers};
 
 class FramePass {
  public:
@@ -62,8 +63,11 @@ class FramePass {
   /// Rasterizes and uploads, clears results that are summed up, builds what is not built. Returns
   /// raster and upload times.
   FrameTimes prepare();
-  /// Launches every material's kernel, with `last` behind its other arguments, and waits.
-  FrameTimes launch(std::span<const std::pair<std::string, KernelArg>> last = {});
+  /// Gives one of PassKernel::numbers, 0 after prepare(), to the launches to come. Throws Error if
+  /// the kernel has none of that name.
+  void setNumber(std::string_view name, std::uint32_t value);
+  /// Launches every material's kernel and waits.
+  FrameTimes launch();
 
   const std::vector<Band>& bands() const { return bands_; }
   const Camera& camera() const { return camera_; }

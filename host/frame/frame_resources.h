@@ -1,7 +1,5 @@
 // What one frame's launches share: where effects find the scene, and keep what they upload for it.
 #pragma once
-#include <any>
-#include <functional>
 #include <glm/glm.hpp>
 #include <map>
 #include <memory>
@@ -28,16 +26,16 @@ class FrameResources {
   NormalTextures& textures;
   const glm::dvec3 eye;
 
-  /// The frame's one T, which `make` gives (as a std::shared_ptr<T>) when it is first asked for.
+  /// The frame's one T, which `make` returns when it is first asked for.
   template <typename T, typename Make>
   T& kept(const Make& make) {
-    std::any& place = kept_[typeid(T)];
-    if (!place.has_value()) place = std::shared_ptr<T>(make());
-    return *std::any_cast<std::shared_ptr<T>&>(place);
+    std::shared_ptr<void>& place = kept_[typeid(T)];
+    if (!place) place = std::make_shared<T>(make());
+    return *static_cast<T*>(place.get());
   }
 
  private:
-  std::map<std::type_index, std::any> kept_;
+  std::map<std::type_index, std::shared_ptr<void>> kept_;  // each of the type that it stands under
 };
 
 }  // namespace glintmark

@@ -25,9 +25,9 @@ TruthRenderer::TruthRenderer(Device& device, const Scene& scene, const View& vie
 
 FrameTimes TruthRenderer::addSamples(std::uint32_t begin, std::uint32_t count) {
   const TraceScope scope("frame", "truth samples");
-  const std::pair<std::string, KernelArg> last[] = {{"sample_begin", begin},
-                                                    {"sample_count", count}};
-  return pass_.launch(last);
+  pass_.setNumber("sample_begin", begin);
+  pass_.setNumber("sample_count", count);
+  return pass_.launch();
 }
 
 Image TruthRenderer::readSum() const {

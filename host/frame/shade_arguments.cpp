@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "host/core/error.h"
 
@@ -19,6 +20,12 @@ ShadeArguments::ShadeArguments(const ShadeInputs& inputs) {
 void ShadeArguments::add(std::string name, KernelArg value) {
   names_.push_back(std::move(name));
   values_.push_back(std::move(value));
+}
+
+void ShadeArguments::set(std::string_view name, KernelArg value) {
+  const auto found = std::ranges::find(names_, name);
+  if (found == names_.end()) throw Error(fmt::format("no argument is called '{}'", name));
+  values_[static_cast<std::size_t>(found - names_.begin())] = std::move(value);
 }
 
 void ShadeArguments::requireNamesOf(const Kernel& kernel) const {

@@ -2,7 +2,7 @@
 #pragma once
 #include <span>
 #include <string>
-#include <utility>
+#include <string_view>
 #include <vector>
 
 #include "host/ocl/compute.h"
@@ -20,6 +20,9 @@ class ShadeArguments {
   explicit ShadeArguments(const ShadeInputs& inputs);
 
   void add(std::string name, KernelArg value);
+  /// Gives the argument of that name, which must have been added, another value. Throws Error if
+  /// there is none.
+  void set(std::string_view name, KernelArg value);
   std::span<const KernelArg> values() const { return values_; }
 
   /// Throws Error naming the first argument that is not the kernel's parameter of that place: two
@@ -32,7 +35,8 @@ class ShadeArguments {
   std::vector<KernelArg> values_;
 };
 
-/// Launches `kernel` over `items` work-items after requireNamesOf().
+/// Launches `kernel` once over `items` work-items after requireNamesOf(); whoever launches again
+/// and again checks once.
 LaunchTimes launchShading(Kernel& kernel, const ShadeArguments& arguments, std::size_t items,
                           std::size_t local_size);
 

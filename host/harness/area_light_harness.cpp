@@ -1,7 +1,5 @@
 #include "host/harness/area_light_harness.h"
 
-#include "host/ocl/upload.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,11 +10,6 @@ namespace glintmark {
 namespace {
 
 constexpr const char* kProbes = "probes/probe_area_light.cl";
-
-template <typename T>
-Buffer probeData(KernelBench& bench, const std::vector<T>& items) {
-  return upload(bench.device, items, BufferPurpose::kProbe);
-}
 
 // Ten planes of numbers.
 std::vector<float> pointPlanes(const std::vector<HandMadePoint>& points, std::size_t stride) {

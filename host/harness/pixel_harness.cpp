@@ -5,20 +5,16 @@
 #include <cmath>
 
 #include "host/core/error.h"
+#include "host/core/float4.h"
 #include "host/core/planes.h"
 #include "host/frame/effect/lights.h"
 #include "host/frame/effects.h"
 #include "host/frame/shade_arguments.h"
-#include "host/ocl/upload.h"
 
 namespace glintmark {
 namespace {
 
 constexpr std::uint32_t kLimitedBit = 0x80000000u;
-
-float4 toFloat4(const glm::dvec3& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0};
-}
 
 std::uint32_t bitsOf(double value) {
   return std::bit_cast<std::uint32_t>(static_cast<float>(value));
@@ -46,11 +42,6 @@ std::vector<std::uint32_t> planeWords(const HandMadeFrame& frame, PlaneMask mask
     store(Plane::kFrame1, pixel.frame.frame1);
   }
   return words;
-}
-
-template <typename T>
-Buffer probeData(Device& device, const std::vector<T>& items) {
-  return upload(device, items, BufferPurpose::kProbe);
 }
 
 FrameParams paramsOf(const HandMadeFrame& frame, std::size_t stride) {
@@ -81,12 +72,12 @@ ShadedPixels shadePixels(KernelBench& bench, const HandMadeFrame& frame, KernelC
   PreparedLights lights = prepareLights(frame.lights);
   Buffer radiance(device, stride * 12, BufferPurpose::kProbe, "radiance");
   Buffer counts(device, stride * 4, BufferPurpose::kProbe, "counts");
-  ShadeArguments arguments({.planes = probeData(device, planeWords(frame, config.planes, stride)),
-                            .frame = probeData(device, std::vector{paramsOf(frame, stride)}),
-                            .material = probeData(device, std::vector{frame.material}),
-                            .lights = probeData(device, lights.lights),
-                            .taps = probeData(device, lights.taps)});
-  if (frame.scatter) arguments.add("scatter", probeData(device, std::vector{*frame.scatter}));
+  ShadeArguments arguments({.planes = probeData(bench, planeWords(frame, config.planes, stride)),
+                            .frame = probeData(bench, std::vector{paramsOf(frame, stride)}),
+                            .material = probeData(bench, std::vector{frame.material}),
+                            .lights = probeData(bench, lights.lights),
+                            .taps = probeData(bench, lights.taps)});
+  if (frame.scatter) arguments.add("scatter", probeData(bench, std::vector{*frame.scatter}));
   arguments.add("radiance", radiance);
   if (config.count_cells) arguments.add("cell_counts", counts);
   const auto lanes = static_cast<std::size_t>(config.width);
@@ -144,7 +135,7 @@ glm::dvec2 deviceStretch(KernelBench& bench, const MaterialParams& material) {
   const std::vector<float4> alphas = {{material.surface.alpha_g.x, material.surface.alpha_g.y,
                                        material.glints.alpha_l.x, material.glints.alpha_l.y}};
   Buffer out(device, 8, BufferPurpose::kProbe, "stretch");
-  const KernelArg args[] = {probeData(device, alphas), out, std::uint32_t{1}};
+  const KernelArg args[] = {probeData(bench, alphas), out, std::uint32_t{1}};
   probeKernel(bench, "probes/probe_glint.cl", "probeStretch", "-D WIDTH=1")
       .launch(args, 1, kLocalSize);
   float2 stretch;

@@ -6,14 +6,14 @@
 #include <bit>
 
 #include "host/ocl/switches.h"
-#include "host/ocl/upload.h"
+
 namespace glintmark {
 namespace {
 
 template <typename T>
-Buffer probeData(KernelBench& bench, std::vector<T> values) {
+Buffer paddedData(KernelBench& bench, std::vector<T> values) {
   values.resize(paddedCount(values.size()), values.empty() ? T{} : values.back());
-  return upload(bench.device, values, BufferPurpose::kProbe);
+  return probeData(bench, values);
 }
 
 template <typename T>
@@ -41,7 +41,7 @@ std::vector<float> probeMath(KernelBench& bench, MathFunction function, const st
   const std::size_t padded = paddedCount(x.size());
   Buffer out = makeOutput(bench, padded);
   launch(bench, "probes/probe_glint.cl", "probeMath", "", width,
-         {probeData(bench, x), out, static_cast<std::uint32_t>(padded),
+         {paddedData(bench, x), out, static_cast<std::uint32_t>(padded),
           static_cast<std::int32_t>(function)},
          padded);
   return download<float>(out, 0, x.size());
@@ -53,8 +53,8 @@ HashProbe probeHash(KernelBench& bench, const std::vector<std::int32_t>& cell_u,
   const std::size_t n = cell_u.size(), padded = paddedCount(n);
   Buffer out = makeOutput(bench, 3 * padded);
   launch(bench, "probes/probe_glint.cl", "probeHash", "", width,
-         {probeData(bench, cell_u), probeData(bench, cell_v), probeData(bench, ju),
-          probeData(bench, jv), out, static_cast<std::uint32_t>(padded)},
+         {paddedData(bench, cell_u), paddedData(bench, cell_v), paddedData(bench, ju),
+          paddedData(bench, jv), out, static_cast<std::uint32_t>(padded)},
          padded);
   return {download<std::uint32_t>(out, 0, n), download<std::uint32_t>(out, padded, n),
           download<std::uint32_t>(out, 2 * padded, n)};
@@ -64,7 +64,7 @@ RandomProbe probeRandom(KernelBench& bench, const std::vector<std::uint32_t>& bi
   const std::size_t padded = paddedCount(bits.size());
   Buffer out = makeOutput(bench, 2 * padded);
   launch(bench, "probes/probe_glint.cl", "probeRandom", "", width,
-         {probeData(bench, bits), out, static_cast<std::uint32_t>(padded)}, padded);
+         {paddedData(bench, bits), out, static_cast<std::uint32_t>(padded)}, padded);
   return {download<float>(out, 0, bits.size()), download<float>(out, padded, bits.size())};
 }
 
@@ -89,7 +89,7 @@ FootprintProbe probeFootprints(KernelBench& bench,
   Buffer out = makeOutput(bench, 4 * padded);
   launch(bench, "probes/probe_glint.cl", "probeFootprint",
          fmt::format("-D GLINT_METHOD={} -D KA={}", choiceName(method), ka), width,
-         {probeData(bench, planes), out, static_cast<std::uint32_t>(padded),
+         {paddedData(bench, planes), out, static_cast<std::uint32_t>(padded),
           static_cast<float>(stretch.x), static_cast<float>(stretch.y)},
          padded);
   return {download<float>(out, 0, n), download<float>(out, padded, n),
@@ -103,7 +103,7 @@ std::vector<float> probeBinomial(KernelBench& bench, const std::vector<float>& u
   Buffer out = makeOutput(bench, padded);
   launch(bench, "probes/probe_binomial.cl", "probeBinomial",
          fmt::format("-D GLINT_METHOD={}", choiceName(method)), width,
-         {probeData(bench, u), probeData(bench, n), probeData(bench, p), out,
+         {paddedData(bench, u), paddedData(bench, n), paddedData(bench, p), out,
           static_cast<std::uint32_t>(padded)},
          padded);
   return download<float>(out, 0, u.size());

@@ -37,7 +37,6 @@ std::vector<ScatteredRadiance> probeScatter(KernelBench& bench,
                                             const std::vector<DirectionPair>& pairs,
                                             const Material& material, int lanes,
                                             bool masking_compiled_in) {
-  Device& device = bench.device;
   KernelConfig config;
   config.width = lanes;
   config.glint = false;
@@ -54,12 +53,11 @@ std::vector<ScatteredRadiance> probeScatter(KernelBench& bench,
     }
   }
   const MultiscatterMaterial prepared = prepareMultiscatter(material, config);
-  Buffer input(device, in.size() * 4, BufferPurpose::kProbe, "directions");
-  Buffer scatter(device, sizeof prepared, BufferPurpose::kProbe, "a material's scattering");
-  Buffer output(device, out.size() * 4, BufferPurpose::kProbe, "radiance");
-  input.write(in.data(), in.size() * 4);
-  scatter.write(&prepared, sizeof prepared);
-  const std::vector<KernelArg> args = {input, scatter, output, static_cast<std::uint32_t>(n)};
+  Buffer output(bench.device, out.size() * 4, BufferPurpose::kProbe, "radiance");
+  const std::vector<KernelArg> args = {
+      probeData(bench, in, "directions"),
+      probeData(bench, std::vector{prepared}, "a material's scattering"), output,
+      static_cast<std::uint32_t>(n)};
   probeKernel(bench, "probes/probe_scatter.cl", "probeScatter", buildOptions(config))
       .launch(args, n / static_cast<std::size_t>(lanes), kLocalSize);
   output.read(out.data(), out.size() * 4);

@@ -1,7 +1,5 @@
 #include "host/harness/texture_harness.h"
 
-#include "host/ocl/upload.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -74,15 +72,12 @@ std::vector<FetchedTexel> fetchPixels(KernelBench& bench, const TestTexture& tex
     for (std::size_t d = 0; d < 4; ++d)
       planes[(2 + d) * n + i] = std::bit_cast<std::uint32_t>(derivatives[d]);
   }
-  const auto probeData = [&](const auto& items) {
-    return upload(bench.device, items, BufferPurpose::kProbe);
-  };
   const std::size_t components = 4 * static_cast<std::size_t>(texel_size);
   std::vector<float> words((components + 2) * n);
   Buffer out(bench.device, words.size() * 4, BufferPurpose::kProbe);
-  const std::vector<KernelArg> args = {probeData(std::vector{texture.header}),
-                                       probeData(texture.texels),
-                                       probeData(planes),
+  const std::vector<KernelArg> args = {probeData(bench, std::vector{texture.header}),
+                                       probeData(bench, texture.texels),
+                                       probeData(bench, planes),
                                        out,
                                        static_cast<std::uint32_t>(n),
                                        most_probes,

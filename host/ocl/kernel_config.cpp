@@ -30,4 +30,19 @@ std::string buildOptions(const KernelConfig& config) {
   return options;
 }
 
+std::string programOptions(const KernelConfig& config) {
+  std::string options = buildOptions(config);
+  if (!config.all_materials) return options;
+  for (const Switch& row : allSwitches())
+    if (row.bit != 0) options += fmt::format(" -D EFFECT_{}={}u", row.macro, row.bit);
+  return options;
+}
+
+std::uint32_t effectBits(const KernelConfig& config) {
+  std::uint32_t bits = 0;
+  for (const Switch& row : allSwitches())
+    if (row.of(config) != 0) bits |= row.bit;
+  return bits;
+}
+
 }  // namespace glintmark

@@ -1,6 +1,7 @@
 // Every compile-time switch of the kernels in one plain struct.
 #pragma once
 #include <compare>
+#include <cstdint>
 #include <string>
 
 #include "host/core/planes.h"
@@ -30,8 +31,15 @@ struct KernelConfig {
 /// In place of an effect: of knobs that every program has.
 inline constexpr bool KernelConfig::*kEveryProgram = nullptr;
 
-/// The only place that writes -D: options for clBuildProgram, e.g. "-D WIDTH=16 -D GLINT=1 ...".
-/// Throws Error for values out of range.
+/// Options for clBuildProgram as records name them, e.g. "-D WIDTH=16 -D GLINT=1 ...". Throws Error
+/// for values out of range. It and programOptions() are the only places that write -D.
 std::string buildOptions(const KernelConfig& config);
+
+/// The same with all that the program needs to compile: if it is for all materials, the bits
+/// EFFECT_<switch> by which it asks each of them, which say nothing of how it shades.
+std::string programOptions(const KernelConfig& config);
+
+/// SurfaceMaterial::effects of a material whose own program has this configuration.
+std::uint32_t effectBits(const KernelConfig& config);
 
 }  // namespace glintmark

@@ -111,7 +111,7 @@ Program ProgramCache::Impl::build(const std::string& file, const std::string& ow
 ProgramCache::ProgramCache(Device& device) : impl_(std::make_shared<Impl>(device)) {}
 
 Program ProgramCache::get(const std::string& file, const KernelConfig& config) {
-  return impl_->build(file, buildOptions(config));
+  return impl_->build(file, programOptions(config));
 }
 
 Program ProgramCache::getWithOptions(const std::string& file, const std::string& options) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <utility>
 
 #include "host/core/error.h"
 #include "host/core/shared_types.h"
@@ -86,14 +87,26 @@ Sweep unswept() {
 }
 
 std::vector<Switch> makeSwitches() {
+  std::uint32_t next_bit = 1;
+  const auto takeBit = [&] { return std::exchange(next_bit, next_bit << 1); };
   return {
-#define SWEPT_SWITCH(macro, type, member, standard, values, sweep, meaning, set_by)                \
-  {#macro, static_cast<int>(standard), values, sweep, meaning, set_by, [](const KernelConfig& c) { \
-     return static_cast<int>(c.member);                                                            \
-   }},
+#define ROW(macro, member, standard, values, sweep, meaning, set_by, bit) \
+  {#macro,                                                                \
+   static_cast<int>(standard),                                            \
+   values,                                                                \
+   sweep,                                                                 \
+   meaning,                                                               \
+   set_by,                                                                \
+   [](const KernelConfig& c) { return static_cast<int>(c.member); },      \
+   bit},
+#define SWEPT_SWITCH(macro, type, member, standard, values, sweep, meaning, set_by) \
+  ROW(macro, member, standard, values, sweep, meaning, set_by, 0)
+#define BRANCH(macro, type, member, standard, values, meaning, set_by) \
+  ROW(macro, member, standard, values, unswept(), meaning, set_by, takeBit())
 #define KNOB_ELSE(macro, type, member, standard, without, values, effect, ...) \
   SWEPT_SWITCH(macro, type, member, standard, values, __VA_ARGS__)
 #include "host/ocl/switches.inc"
+#undef ROW
   };
 }
 

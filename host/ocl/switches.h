@@ -1,5 +1,6 @@
 // The table of compile-time switches, host/ocl/switches.inc, for code that runs over it.
 #pragma once
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -52,6 +53,7 @@ struct Switch {
   Sweep sweep;
   std::string_view meaning, set_by;
   int (*of)(const KernelConfig& config) = nullptr;
+  std::uint32_t bit = 0;  // of a BRANCH, in SurfaceMaterial::effects: the kernels' EFFECT_<macro>
 
   /// "16", "exact", "half".
   std::string nameOf(int value) const;

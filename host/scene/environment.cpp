@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "host/core/error.h"
+#include "host/core/float4.h"
 
 namespace glintmark {
 namespace {
@@ -133,10 +134,8 @@ ConeLight toCone(const Light& light) {
   const double cos_angle = std::clamp(2 * mean_length - 1, 0.0, 1.0);
   const glm::dvec3 irradiance = light.flux * (0.5 * (1 + cos_angle));
   ConeLight cone;
-  cone.direction = {static_cast<float>(axis.x), static_cast<float>(axis.y),
-                    static_cast<float>(axis.z), static_cast<float>(std::acos(cos_angle))};
-  cone.irradiance = {static_cast<float>(irradiance.x), static_cast<float>(irradiance.y),
-                     static_cast<float>(irradiance.z), 0};
+  cone.direction = toFloat4(axis, std::acos(cos_angle));
+  cone.irradiance = toFloat4(irradiance);
   return cone;
 }
 

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "host/core/error.h"
+#include "host/core/float4.h"
 #include "host/scene/environment.h"
 #include "host/scene/read_scene_parts.h"
 #include "host/scene/scene_files.h"
@@ -27,11 +28,9 @@ ConeLight readLight(SceneTable& table) {
   }
   direction = glm::normalize(direction);
   const double half_angle_rad = glm::radians(table.number("half_angle_deg", 0.27, kHalfAngle));
-  const glm::vec3 irradiance = table.vector3("irradiance", glm::dvec3(1), kNotNegative);
+  const glm::dvec3 irradiance = table.vector3("irradiance", glm::dvec3(1), kNotNegative);
   table.finish();
-  return {{static_cast<float>(direction.x), static_cast<float>(direction.y),
-           static_cast<float>(direction.z), static_cast<float>(half_angle_rad)},
-          {irradiance.x, irradiance.y, irradiance.z, 0}};
+  return {toFloat4(direction, half_angle_rad), toFloat4(irradiance)};
 }
 
 SkyParameters readSky(SceneTable& table) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host/core/error.h"
+#include "host/core/float4.h"
 #include "host/scene/read_scene_parts.h"
 
 namespace glintmark {
@@ -12,10 +13,6 @@ namespace {
 constexpr Range kFraction{0, 1, true};
 constexpr Range kReflectance{0, 1};
 constexpr Range kLogDensity{-12, 18};
-
-float4 toFloat4(const glm::dvec3& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0};
-}
 
 float2 toFloat2(const glm::dvec2& v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y)};
@@ -79,7 +76,8 @@ void readPalette(SceneTable& table, Material& material) {
                fmt::format("has {} colours, expected 1 to {}", colours.size(), GM_MAX_PALETTE));
   }
   material.params.glints.palette_count = static_cast<uint>(colours.size());
-  std::transform(colours.begin(), colours.end(), material.params.glints.palette, toFloat4);
+  std::transform(colours.begin(), colours.end(), material.params.glints.palette,
+                 [](const glm::dvec3& colour) { return toFloat4(colour); });
 }
 
 Material readMaterial(SceneTable& table, const SceneRequest& request) {

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "host/core/error.h"
+#include "host/core/float4.h"
 
 namespace glintmark {
 namespace {
@@ -51,8 +52,7 @@ HeightfieldRun makeRun(const SimulationSettings& s, float count_height,
                        std::uint32_t rays_per_lane) {
   const glm::dvec3 light = incidentDirection(s);
   HeightfieldRun run{};
-  run.incoming = {static_cast<float>(-light.x), static_cast<float>(-light.y),
-                  static_cast<float>(-light.z), 0};
+  run.incoming = toFloat4(-light);
   run.alpha = {static_cast<float>(s.alpha.x), static_cast<float>(s.alpha.y)};
   run.count_height = count_height;
   run.index_n = static_cast<float>(s.index_n);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/ocl/upload.h"
 #include "host/simulate/heightfield_types.h"
 #include "host/simulate/surface_spectrum.h"
 
@@ -14,12 +15,6 @@ namespace {
 constexpr std::size_t kLocalSize = 16;
 // Counts reach this many standard deviations; a tile has about 7000 independent heights.
 constexpr double kMostDeviations = 6;
-
-Buffer upload(Device& device, const std::vector<float>& values, const char* what) {
-  Buffer buffer(device, values.size() * sizeof(float), BufferPurpose::kSimulation, what);
-  buffer.write(values.data(), values.size() * sizeof(float));
-  return buffer;
-}
 
 // A function of 2 pi i x / HF_TILE for every wave number i and texel x.
 std::vector<float> waveTable(double (*function)(double)) {
@@ -67,9 +62,12 @@ SurfaceMaker::SurfaceMaker(Device& device, ProgramCache& cache, double correlati
   pack_heights_ = program.kernel("packHeights");
   block_tops_ = program.kernel("blockTops");
   block_cones_ = program.kernel("blockCones");
-  amplitudes_ = upload(device, spectrum.amplitudes, "the surface's amplitudes");
-  cosines_ = upload(device, waveTable(std::cos), "the surface's waves");
-  sines_ = upload(device, waveTable(std::sin), "the surface's waves");
+  const auto table = [&](const std::vector<float>& values, const char* what) {
+    return upload(device, values, BufferPurpose::kSimulation, what);
+  };
+  amplitudes_ = table(spectrum.amplitudes, "the surface's amplitudes");
+  cosines_ = table(waveTable(std::cos), "the surface's waves");
+  sines_ = table(waveTable(std::sin), "the surface's waves");
   const auto words = [&](std::size_t count, const char* what) {
     return Buffer(device, count * 4, BufferPurpose::kSimulation, what);
   };
@@ -79,7 +77,7 @@ SurfaceMaker::SurfaceMaker(Device& device, ProgramCache& cache, double correlati
   heights_ = words(HF_HEIGHT_WORDS, "the surface's packed heights");
   tops_ = words(std::size_t{2} * HF_TOP_WORDS, "the surface's block tops");
   highest_ = words(2, "the surface's extremes");
-  reached_ = upload(device, reachedBlocks(), "blocks that an octant reaches");
+  reached_ = table(reachedBlocks(), "blocks that an octant reaches");
   cones_ = words(std::size_t{2} * HF_OCTANTS * HF_CONE_WORDS, "the surface's cones");
 }
 

@@ -45,8 +45,7 @@ Finding structLayouts(const CheckContext& context) {
 // Twelve chains of x = x / 2 + 1 / 2 end at exactly 1 each.
 Finding fusedMultiplyAdds(const CheckContext& context) {
   std::vector<float> values(64, 0.25f);
-  Buffer buffer(context.bench.device, values.size() * 4, BufferPurpose::kProbe);
-  buffer.write(values.data(), values.size() * 4);
+  const Buffer buffer = probeData(context.bench, values);
   const KernelArg args[] = {buffer, std::uint32_t{200}, 0.5f, 0.5f};
   probeKernel(context.bench, "probes/probe.cl", "probeFma",
               "-D WIDTH=" + std::to_string(context.lanes))

@@ -25,7 +25,6 @@ struct ProbedLobe {
 
 std::vector<ProbedLobe> probe(const CheckContext& context, const std::vector<LobeCase>& cases,
                               float alpha) {
-  Device& device = context.bench.device;
   const std::size_t n = paddedCount(cases.size());
   std::vector<float> in(10 * n), out(6 * n);
   for (std::size_t i = 0; i < n; ++i) {
@@ -34,10 +33,9 @@ std::vector<ProbedLobe> probe(const CheckContext& context, const std::vector<Lob
                             c.light.y,   c.light.z,   c.view.x,    c.view.y,    c.view.z};
     for (std::size_t k = 0; k < 10; ++k) in[k * n + i] = values[k];
   }
-  Buffer input(device, in.size() * 4, BufferPurpose::kProbe, "lobes"),
-      output(device, out.size() * 4, BufferPurpose::kProbe, "shaded lobes");
-  input.write(in.data(), in.size() * 4);
-  const std::vector<KernelArg> args = {input, output, static_cast<std::uint32_t>(n), alpha};
+  Buffer output(context.bench.device, out.size() * 4, BufferPurpose::kProbe, "shaded lobes");
+  const std::vector<KernelArg> args = {probeData(context.bench, in, "lobes"), output,
+                                       static_cast<std::uint32_t>(n), alpha};
   probeKernel(context.bench, "probes/probe_lobe.cl", "probeLobe",
               fmt::format("-D WIDTH={} -D DIFFUSE=1 -D NORMAL_MAP=1 -D LOBES=1", context.lanes))
       .launch(args, n / static_cast<std::size_t>(context.lanes), kLocalSize);
@@ -149,11 +147,9 @@ Mixture probeMixture(const CheckContext& context, const std::vector<glm::vec4>& 
     for (std::size_t c = 0; c < 4; ++c)
       for (std::size_t lane = 0; lane < lanes; ++lane)
         in[(4 * k + c) * lanes + lane] = moments[k][static_cast<int>(c)];
-  Device& device = context.bench.device;
-  Buffer input(device, in.size() * 4, BufferPurpose::kProbe, "moments"),
-      output(device, out.size() * 4, BufferPurpose::kProbe, "a mixture");
-  input.write(in.data(), in.size() * 4);
-  const std::vector<KernelArg> args = {input, output, static_cast<std::uint32_t>(lanes), alpha};
+  Buffer output(context.bench.device, out.size() * 4, BufferPurpose::kProbe, "a mixture");
+  const std::vector<KernelArg> args = {probeData(context.bench, in, "moments"), output,
+                                       static_cast<std::uint32_t>(lanes), alpha};
   probeKernel(context.bench, "probes/probe_lobe.cl", "probeMixture",
               fmt::format("-D WIDTH={} -D DIFFUSE=1 -D NORMAL_MAP=1 -D LOBES=4", lanes))
       .launch(args, 1, 1);

@@ -1,24 +1,16 @@
 // The tables' texts: columns, what is not valid, what they show.
 #include <gtest/gtest.h>
 
-#include <sstream>
-
 #include "host/experiment/effects/effects_table.h"
 #include "host/experiment/msbrdf/msbrdf_table.h"
 #include "host/experiment/paper_gpu.h"
 #include "host/experiment/zk16/zk16_table.h"
 #include "host/report/record/text_table.h"
 #include "tests/report/sample_records.h"
+#include "tests/report/widest_line.h"
 
 namespace glintmark {
 namespace {
-
-std::size_t widestLine(const std::string& text) {
-  std::istringstream lines(text);
-  std::size_t widest = 0;
-  for (std::string line; std::getline(lines, line);) widest = std::max(widest, line.size());
-  return widest;
-}
 
 // Records of all ten views with `scale` times plausible values.
 std::vector<Record> tenViews(double scale) {

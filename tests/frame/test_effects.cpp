@@ -9,6 +9,7 @@
 #include "host/core/error.h"
 #include "host/filter/normal_map_generators.h"
 #include "host/frame/all_materials.h"
+#include "host/frame/effect_module.h"
 #include "host/frame/effect_set.h"
 #include "host/frame/effects.h"
 #include "host/ocl/static_counts.h"
@@ -90,6 +91,15 @@ TEST(EffectSets, ScenesCallForThem) {
   EXPECT_EQ(effectSetName({Effect::kLtc, Effect::kGlints}), "glints+ltc");
 }
 
+// Nobody calls for an effect that neither asks nor needs others: it would be in every scene.
+TEST(EffectSets, EveryEffectSaysWhoCallsForIt) {
+  for (const Effect effect : kEverything.list()) {
+    const EffectModule& module = effectModule(effect);
+    EXPECT_TRUE(module.material_calls || module.scene_calls || !module.needs.empty())
+        << effectName(effect);
+  }
+}
+
 class SetOfEffects : public testing::TestWithParam<EffectSet> {};
 
 // The program with everything compiled in, on the same lists and on pixels in the order of the
@@ -149,8 +159,8 @@ const std::vector<std::pair<Effect, std::vector<std::string>>>& effectFunctions(
 }
 
 std::string preprocessed(const KernelConfig& config) {
-  const std::string command = "g++ -E -P -x c -I '" + kernelFolder() + "' " + buildOptions(config) +
-                              " '" + kernelFolder() + "/shade.cl' 2>&1";
+  const std::string command = "g++ -E -P -x c -I '" + kernelFolder() + "' " +
+                              programOptions(config) + " '" + kernelFolder() + "/shade.cl' 2>&1";
   const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
   std::string text;
   char chunk[4096];
@@ -166,6 +176,10 @@ TEST(Specialisation, ProgramsNameNoFunctionOfAnAbsentEffect) {
   for (const auto& [effect, names] : effectFunctions())
     for (const std::string& name : names)
       EXPECT_NE(everything.find(name), std::string::npos) << name << " was renamed";
+
+  EffectSet known;
+  for (const auto& [effect, names] : effectFunctions()) known = known | EffectSet{effect};
+  EXPECT_EQ(effectSetName(known), effectSetName(effectsOf(configForAll(scene, options, 16))));
 
   for (const EffectSet set :
        {kEverything, kEverything.without({Effect::kLtc, Effect::kMultiscale})}) {

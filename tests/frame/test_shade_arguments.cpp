@@ -52,6 +52,16 @@ TEST(ShadeArguments, InTheirOrderTheyLaunch) {
   EXPECT_EQ(errorOf(arguments), "");
 }
 
+TEST(ShadeArguments, AreGivenOtherValuesByName) {
+  ShadeArguments arguments = inputs();
+  arguments.add("sample_begin", 0u);
+  arguments.add("sample_count", 0u);
+  arguments.set("sample_begin", 7u);
+  EXPECT_EQ(std::get<std::uint32_t>(arguments.values()[5]), 7u);
+  EXPECT_EQ(std::get<std::uint32_t>(arguments.values()[6]), 0u);
+  EXPECT_THROW(arguments.set("sample_end", 1u), Error);
+}
+
 // A texture's buffers where the results belong: alike to the compiler, and to OpenCL.
 TEST_F(NamedParameters, ABufferInAnothersPlaceIsAnErrorThatNamesBoth) {
   ShadeArguments arguments = inputs();

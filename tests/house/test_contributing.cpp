@@ -1,14 +1,13 @@
-// CONTRIBUTING.md names files that are there, and every folder says what lives in it.
+// CONTRIBUTING.md names files that are there.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <regex>
-#include <sstream>
 #include <string>
 #include <vector>
+
+#include "host/core/atomic_file.h"
 
 namespace glintmark {
 namespace {
@@ -16,11 +15,6 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path kProject = GLINTMARK_SOURCE_DIR;
-
-std::string textOf(const fs::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 // Files and folders below the project's tracked folders, from its root: "host/ocl/device.h".
 const std::vector<std::string>& projectPaths() {
@@ -58,13 +52,13 @@ std::vector<std::string> pathsIn(const std::string& text) {
 }
 
 TEST(Contributing, NamesFilesThatExist) {
-  const std::vector<std::string> paths = pathsIn(textOf(kProject / "CONTRIBUTING.md"));
+  const std::vector<std::string> paths = pathsIn(readFile(kProject / "CONTRIBUTING.md"));
   EXPECT_GT(paths.size(), 25u);
   for (const std::string& path : paths) EXPECT_TRUE(exists(path)) << path;
 }
 
 TEST(Contributing, SaysHowToAddEachKind) {
-  const std::string text = textOf(kProject / "CONTRIBUTING.md");
+  const std::string text = readFile(kProject / "CONTRIBUTING.md");
   for (const char* kind : {"method", "effect", "table", "knob", "check", "scene"})
     EXPECT_TRUE(std::regex_search(text, std::regex(std::string(R"(\*\*An? ([a-z]+ )?)") + kind)))
         << kind;
@@ -78,20 +72,6 @@ TEST(Contributing, ATestCanFindAPathThatIsNotThere) {
   EXPECT_TRUE(exists("host/core/<name>.h"));
   EXPECT_TRUE(exists("host/core/"));
   EXPECT_TRUE(exists("README.md"));
-}
-
-TEST(Folders, EachOpensWithAFewLines) {
-  constexpr int kMostLines = 10;
-  for (const char* part : {"host", "kernels"})
-    for (const fs::directory_entry& folder : fs::directory_iterator(kProject / part)) {
-      if (!folder.is_directory()) continue;
-      const std::string text = textOf(folder.path() / "README.md");
-      EXPECT_FALSE(text.empty()) << folder.path() << " has no README.md";
-      int lines = 0;
-      std::istringstream in(text);
-      for (std::string line; std::getline(in, line);) lines += !line.empty();
-      EXPECT_LE(lines, kMostLines) << folder.path();
-    }
 }
 
 }  // namespace

@@ -2,9 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
+#include "host/core/atomic_file.h"
 #include "tests/house/house.h"
 
 namespace glintmark::house {
@@ -23,8 +22,7 @@ const Files& projectFiles() {
         const bool is_read = isSource(path) || entry.path().extension() == ".md" ||
                              entry.path().filename() == "CMakeLists.txt" ||
                              path == "host/order.txt";
-        std::ifstream stream(entry.path(), std::ios::binary);
-        all[path] = is_read ? std::string(std::istreambuf_iterator<char>(stream), {}) : "";
+        all[path] = is_read ? readFile(entry.path()) : "";
       }
     return all;
   }();

@@ -73,6 +73,23 @@ TEST(KernelConfig, EverySwitchShows) {
   EXPECT_EQ(buildOptions({}), expected);
 }
 
+// They are no options of their own: what is recorded does not name them.
+TEST(KernelConfig, ProgramsForAllMaterialsGetABitForEachBranch) {
+  KernelConfig config;
+  EXPECT_EQ(programOptions(config), buildOptions(config));
+  config.all_materials = true;
+  EXPECT_PRED2(startsWith, programOptions(config),
+               buildOptions(config) +
+                   " -D EFFECT_GLINT=1u -D EFFECT_GROOVE=2u -D EFFECT_GLINT_COLOUR=4u "
+                   "-D EFFECT_DIFFUSE=8u -D EFFECT_NORMAL_MAP=16u -D EFFECT_LTC=32u "
+                   "-D EFFECT_MULTISCATTER=64u -D EFFECT_METAL_COMPENSATION=128u");
+  config.glint = false;
+  EXPECT_EQ(effectBits(config), 0u);
+  config.groove = config.diffuse = true;
+  config.multiscatter = Multiscatter::kEon;
+  EXPECT_EQ(effectBits(config), 2u | 8u | 64u);
+}
+
 TEST(KernelConfig, PlanesBecomeTheirSlots) {
   KernelConfig config;
   config.planes = {Plane::kDepth, Plane::kPixel, Plane::kDvdx};

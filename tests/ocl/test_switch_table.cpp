@@ -5,7 +5,6 @@
 #include <stdio.h>
 
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <regex>
@@ -22,11 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path kKernels = fs::path(GLINTMARK_SOURCE_DIR) / "kernels";
-
-std::string readText(const fs::path& file) {
-  std::ifstream stream(file);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 // Lines of text from the one that starts with `first` to the next empty one.
 std::vector<std::string> paragraph(const std::string& text, const std::string& first) {
@@ -67,7 +61,7 @@ std::vector<std::string> renderedTable() {
 }
 
 TEST(SwitchTable, ReadmeHasTheSame) {
-  const std::vector<std::string> readme = paragraph(readText(kKernels / "README.md"), "| switch |");
+  const std::vector<std::string> readme = paragraph(readFile(kKernels / "README.md"), "| switch |");
   const std::vector<std::string> table = renderedTable();
   const std::set<std::string> known(readme.begin(), readme.end());
   for (const std::string& line : table)
@@ -116,7 +110,7 @@ std::map<fs::path, std::vector<const Switch*>> declaredSwitches() {
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(kKernels)) {
     const fs::path extension = entry.path().extension();
     if (extension != ".clh" && extension != ".cl" && extension != ".h") continue;
-    const std::string text = readText(entry.path());
+    const std::string text = readFile(entry.path());
     for (auto it = std::sregex_iterator(text.begin(), text.end(), default_of);
          it != std::sregex_iterator(); ++it)
       for (const Switch& row : allSwitches())
@@ -133,7 +127,7 @@ TEST(SwitchTable, EveryDefaultStandsInOneKernelFile) {
 }
 
 TEST(SwitchTable, ConfigHoldsNothingElse) {
-  const std::string text = readText(kKernels / "config.clh");
+  const std::string text = readFile(kKernels / "config.clh");
   const std::regex default_of("#ifndef (\\w+)\n#define \\1 ");
   for (auto it = std::sregex_iterator(text.begin(), text.end(), default_of);
        it != std::sregex_iterator(); ++it)

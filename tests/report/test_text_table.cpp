@@ -3,19 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <limits>
-#include <sstream>
 
 #include "host/core/error.h"
+#include "tests/report/widest_line.h"
 
 namespace glintmark {
 namespace {
-
-std::size_t widestLine(const std::string& text) {
-  std::istringstream lines(text);
-  std::size_t widest = 0;
-  for (std::string line; std::getline(lines, line);) widest = std::max(widest, line.size());
-  return widest;
-}
 
 TEST(TextTable, AlignsColumns) {
   TextTable table({"name", "ms"});

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host/core/error.h"
+#include "host/core/float4.h"
 #include "host/frame/effect/lights.h"
 #include "host/frame/frame_renderer.h"
 #include "host/harness/small_scenes.h"
@@ -19,10 +20,6 @@ namespace {
 
 constexpr std::array kUvPlanes = {Plane::kUInt, Plane::kUFrac, Plane::kVInt, Plane::kVFrac,
                                   Plane::kDudx, Plane::kDvdx,  Plane::kDudy, Plane::kDvdy};
-
-float4 toFloat4(const glm::dvec3& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0};
-}
 
 template <typename T>
 void append(std::ofstream& file, const T* data, std::size_t count) {

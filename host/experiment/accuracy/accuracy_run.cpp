@@ -8,6 +8,7 @@
 #include "host/core/error.h"
 #include "host/experiment/accuracy/accuracy_effect.h"
 #include "host/experiment/accuracy/accuracy_table.h"
+#include "host/experiment/all_tables.h"
 #include "host/experiment/interrupt.h"
 #include "host/report/record/case_name.h"
 
@@ -132,6 +133,7 @@ int runAccuracy(const Session& session, const AccuracySelection& selection, Benc
   return run.finish(headText(run) + accuracyTableText(records) + left_out + invalidText(records));
 }
 
+// `bench` does not measure it.
 BenchTable accuracyTable() {
   return {.spec = accuracySpec()};
 }

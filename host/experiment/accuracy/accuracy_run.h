@@ -19,7 +19,4 @@ struct AccuracySelection {
 /// code. Throws Error for names that are not known, listing the known ones.
 int runAccuracy(const Session& session, const AccuracySelection& selection, BenchOptions options);
 
-/// Table "accuracy", which `bench` does not measure.
-BenchTable accuracyTable();
-
 }  // namespace glintmark

@@ -1,10 +1,11 @@
-#include "host/experiment/effects/effects_bench.h"
-
+// Table `effects`: what each effect, each pair and all of them cost, and what not having the others
+// saves.
 #include <fmt/format.h>
 
 #include <map>
 #include <optional>
 
+#include "host/experiment/all_tables.h"
 #include "host/experiment/effects/effects_case.h"
 #include "host/experiment/effects/effects_table.h"
 #include "host/experiment/summary_table.h"

@@ -1,7 +1,7 @@
-#include "host/experiment/msbrdf/msbrdf_bench.h"
-
+// glintmark bench msbrdf: [PAT18]'s simulation, the models fitted to it, and what they cost.
 #include <fmt/format.h>
 
+#include "host/experiment/all_tables.h"
 #include "host/experiment/msbrdf/msbrdf_cases.h"
 #include "host/experiment/msbrdf/msbrdf_table.h"
 #include "host/experiment/summary_table.h"

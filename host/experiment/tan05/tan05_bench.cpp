@@ -1,10 +1,11 @@
-#include "host/experiment/tan05/tan05_bench.h"
-
+// glintmark bench tan05: the comparisons of [TAN05] over scenes, views, distances and methods; a
+// strip of pictures per view.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <optional>
 
+#include "host/experiment/all_tables.h"
 #include "host/experiment/summary_table.h"
 #include "host/experiment/tan05/tan05_summary.h"
 #include "host/experiment/tan05/tan05_table.h"

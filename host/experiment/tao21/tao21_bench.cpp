@@ -1,11 +1,11 @@
-#include "host/experiment/tao21/tao21_bench.h"
-
+// glintmark bench tao21: area lights on normal-mapped surfaces.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "host/experiment/all_tables.h"
 #include "host/experiment/paper_gpu.h"
 #include "host/experiment/summary_table.h"
 #include "host/experiment/tao21/tao21_summary.h"

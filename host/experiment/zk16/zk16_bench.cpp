@@ -1,10 +1,11 @@
-#include "host/experiment/zk16/zk16_bench.h"
-
+// glintmark bench zk16: Table 1 of [ZK16] over scenes and views, and its breakdown; a heatmap of
+// cells per view.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <optional>
 
+#include "host/experiment/all_tables.h"
 #include "host/experiment/paper_gpu.h"
 #include "host/experiment/zk16/zk16_case.h"
 #include "host/experiment/zk16/zk16_table.h"

@@ -7,17 +7,13 @@
 #include <glm/gtc/packing.hpp>
 
 #include "host/core/error.h"
+#include "host/core/float4.h"
 #include "host/ocl/upload.h"
 
 namespace glintmark {
 namespace {
 
 constexpr int kLargestTexture_px = 512;  // finer ones start below their first level
-
-float4 toFloat4(const glm::dvec3& v, double w = 0) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z),
-          static_cast<float>(w)};
-}
 
 AreaLightParams prepareAreaLight(const AreaLight& light, const glm::dvec3& eye) {
   AreaLightParams params{};

@@ -1,6 +1,4 @@
 // What metals lose to further bounces between their facets.
-#include <algorithm>
-
 #include "host/frame/effect/scattering_params.h"
 #include "host/frame/effect_module.h"
 
@@ -15,29 +13,18 @@ void choose(const ProgramCall& call, KernelConfig& config) {
 // The parameters of both effects stand in one struct, which multiscatter adds where both are in.
 void addArguments(FrameResources& frame, const Material& material, const KernelConfig& config,
                   ShadeArguments& arguments) {
-  if (!multiscatterEffect().is_in(config)) addScattering(frame, material, config, arguments);
+  if (!effectsOf(config).has(Effect::kMultiscatter))
+    addScattering(frame, material, config, arguments);
 }
 
 }  // namespace
 
 const EffectModule& compensationEffect() {
   static const EffectModule module = {
-      .name = "compensation",
-      .called_for =
-          [](const Scene& scene) {
-            return std::ranges::any_of(scene.materials, [](const Material& material) {
-              return material.compensation != Compensation::kOff;
-            });
-          },
-      .strip =
-          [](Scene& scene) {
-            for (Material& material : scene.materials) material.compensation = Compensation::kOff;
-          },
+      .material_calls =
+          [](const Material& material) { return material.compensation != Compensation::kOff; },
+      .strip_material = [](Material& material) { material.compensation = Compensation::kOff; },
       .choose = choose,
-      .is_in = [](const KernelConfig& config) { return config.metal_compensation; },
-      .bit = EFFECT_METAL_COMPENSATION,
-      .choose_for_all = [](std::span<const KernelConfig>, const ShadingOptions&,
-                           KernelConfig& all) { all.metal_compensation = true; },
       .add_arguments = addArguments};
   return module;
 }

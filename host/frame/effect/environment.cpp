@@ -15,9 +15,8 @@ void strip(Scene& scene) {
 
 const EffectModule& environmentEffect() {
   static const EffectModule module = {
-      .name = "environment",
-      .called_for = [](const Scene& scene) { return scene.environment.present; },
-      .strip = strip};
+      .scene_calls = [](const Scene& scene) { return scene.environment.present; },
+      .strip_scene = strip};
   return module;
 }
 

@@ -1,21 +1,8 @@
 // Microdetails in two dimensions, drawn per grid cell. [ZK16]
-#include <algorithm>
-
 #include "host/frame/effect_module.h"
 
 namespace glintmark {
 namespace {
-
-bool calledFor(const Scene& scene) {
-  return std::ranges::any_of(scene.materials, [](const Material& material) {
-    return material.has_glints && !material.has_grooves;
-  });
-}
-
-void strip(Scene& scene) {
-  for (Material& material : scene.materials)
-    if (!material.has_grooves) material.has_glints = false;
-}
 
 // Grooves are glints to the kernels. The ground truth keeps to what glints are on average.
 void choose(const ProgramCall& call, KernelConfig& config) {
@@ -27,7 +14,7 @@ void choose(const ProgramCall& call, KernelConfig& config) {
 }
 
 void chooseForAll(std::span<const KernelConfig>, const ShadingOptions& options, KernelConfig& all) {
-  all.glint = all.size_variation = true;
+  all.size_variation = true;
   setKnobs(options, &KernelConfig::glint, all);
 }
 
@@ -35,12 +22,13 @@ void chooseForAll(std::span<const KernelConfig>, const ShadingOptions& options, 
 
 const EffectModule& glintsEffect() {
   static const EffectModule module = {
-      .name = "glints",
-      .called_for = calledFor,
-      .strip = strip,
+      .material_calls =
+          [](const Material& material) { return material.has_glints && !material.has_grooves; },
+      .strip_material =
+          [](Material& material) {
+            if (!material.has_grooves) material.has_glints = false;
+          },
       .choose = choose,
-      .is_in = [](const KernelConfig& config) { return config.glint; },
-      .bit = EFFECT_GLINT,
       .planes = {Plane::kUInt, Plane::kVInt, Plane::kUFrac, Plane::kVFrac, Plane::kDudx,
                  Plane::kDvdx, Plane::kDudy, Plane::kDvdy},
       .choose_for_all = chooseForAll};

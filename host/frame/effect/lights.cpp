@@ -5,6 +5,8 @@
 #include <glm/glm.hpp>
 #include <numbers>
 
+#include "host/core/float4.h"
+
 namespace glintmark {
 namespace {
 
@@ -28,7 +30,7 @@ void appendTaps(const glm::dvec3& axis, double one_minus_cos, int count,
     const double radius = std::sqrt(std::max(0.0, 1.0 - height * height));
     const double phi = golden_angle * i;
     const glm::dvec3 d = axis * height + (side * std::cos(phi) + other * std::sin(phi)) * radius;
-    taps.push_back({static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z), 0});
+    taps.push_back(toFloat4(d));
   }
 }
 
@@ -45,8 +47,7 @@ PreparedLights prepareLights(std::span<const ConeLight> lights) {
     const int count = tapCount(half_angle, one_minus_cos);
 
     LightParams params{};
-    params.direction = {static_cast<float>(axis.x), static_cast<float>(axis.y),
-                        static_cast<float>(axis.z), static_cast<float>(0.5 * half_angle)};
+    params.direction = toFloat4(axis, 0.5 * half_angle);
     // Irradiance E = pi sin^2 L on a facing surface; L times solid angle = E 2 / (1 + cos).
     const auto power = [&](float e) { return static_cast<float>(e * 2.0 / (2.0 - one_minus_cos)); };
     params.power = {power(light.irradiance.x), power(light.irradiance.y), power(light.irradiance.z),

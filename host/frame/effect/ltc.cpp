@@ -24,14 +24,12 @@ void choose(const ProgramCall& call, KernelConfig& config) {
 }
 
 void chooseForAll(std::span<const KernelConfig> own, const ShadingOptions&, KernelConfig& all) {
-  all.ltc = true;
   if (!own.empty()) all.ggx = own.front().ggx;
 }
 
 AreaLightBuffers& buffersOf(FrameResources& frame) {
   return frame.kept<AreaLightBuffers>([&] {
-    return std::make_shared<AreaLightBuffers>(frame.device, frame.scene, frame.eye,
-                                              frame.options.ltc_table);
+    return AreaLightBuffers(frame.device, frame.scene, frame.eye, frame.options.ltc_table);
   });
 }
 
@@ -39,12 +37,9 @@ AreaLightBuffers& buffersOf(FrameResources& frame) {
 
 const EffectModule& ltcEffect() {
   static const EffectModule module = {
-      .name = "ltc",
-      .called_for = [](const Scene& scene) { return !scene.area_lights.empty(); },
-      .strip = [](Scene& scene) { scene.area_lights.clear(); },
+      .scene_calls = [](const Scene& scene) { return !scene.area_lights.empty(); },
+      .strip_scene = [](Scene& scene) { scene.area_lights.clear(); },
       .choose = choose,
-      .is_in = [](const KernelConfig& config) { return config.ltc; },
-      .bit = EFFECT_LTC,
       .planes = {Plane::kDepth},
       .agree = [](const KernelConfig& a, const KernelConfig& b) { return a.ggx == b.ggx; },
       .choose_for_all = chooseForAll,

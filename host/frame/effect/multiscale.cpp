@@ -18,12 +18,7 @@ void choose(const ProgramCall& call, KernelConfig& config) {
 
 const EffectModule& multiscaleEffect() {
   static const EffectModule module = {
-      .name = "multiscale",
       .needs = {Effect::kNormals, Effect::kLtc},
-      .called_for =
-          [](const Scene& scene) {
-            return normalsEffect().called_for(scene) && ltcEffect().called_for(scene);
-          },
       .strip_options = [](ShadingOptions& options) { options.ltc_method = LtcMethod::kOriginal; },
       .choose = choose,
       .is_in = [](const KernelConfig& config) { return config.ltc && config.normal_map; },

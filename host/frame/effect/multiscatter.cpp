@@ -37,21 +37,10 @@ void chooseForAll(std::span<const KernelConfig> own, const ShadingOptions&, Kern
 
 const EffectModule& multiscatterEffect() {
   static const EffectModule module = {
-      .name = "multiscatter",
-      .called_for =
-          [](const Scene& scene) {
-            return std::ranges::any_of(scene.materials, [](const Material& material) {
-              return material.diffuse_model != DiffuseModel::kLambert;
-            });
-          },
-      .strip =
-          [](Scene& scene) {
-            for (Material& material : scene.materials)
-              material.diffuse_model = DiffuseModel::kLambert;
-          },
+      .material_calls =
+          [](const Material& material) { return material.diffuse_model != DiffuseModel::kLambert; },
+      .strip_material = [](Material& material) { material.diffuse_model = DiffuseModel::kLambert; },
       .choose = choose,
-      .is_in = isIn,
-      .bit = EFFECT_MULTISCATTER,
       .agree = agree,
       .choose_for_all = chooseForAll,
       .add_arguments = addScattering};

@@ -5,6 +5,7 @@
 #include "host/mixture/fournier_peaks.h"
 #include "host/mixture/half_mixtures.h"
 #include "host/mixture/mixture_cache.h"
+#include "host/ocl/upload.h"
 
 namespace glintmark {
 namespace {
@@ -21,20 +22,15 @@ MipTexels finestNormals(const NormalMap& map) {
 }
 
 template <typename T>
-NormalTexture upload(Device& device, const MipTexture& layout, const std::vector<T>& texels,
-                     std::size_t texel_bytes) {
-  NormalTexture texture;
-  texture.layout = Buffer(device, sizeof(MipTexture), BufferPurpose::kNormalMapLayouts);
-  texture.layout.write(&layout, sizeof(MipTexture));
-  texture.texels = Buffer(device, texels.size() * sizeof(T), BufferPurpose::kNormalMaps);
-  texture.texels.write(texels.data(), texels.size() * sizeof(T));
-  texture.texel_bytes = texel_bytes;
-  return texture;
+NormalTexture uploadTexture(Device& device, const MipTexture& layout, const std::vector<T>& texels,
+                            std::size_t texel_bytes) {
+  return {upload(device, std::vector{layout}, BufferPurpose::kNormalMapLayouts),
+          upload(device, texels, BufferPurpose::kNormalMaps), texel_bytes};
 }
 
-NormalTexture upload(Device& device, const MipTexels& texels) {
-  return upload(device, texels.layout, texels.texels,
-                static_cast<std::size_t>(texels.vectors) * sizeof(float4));
+NormalTexture uploadTexture(Device& device, const MipTexels& texels) {
+  return uploadTexture(device, texels.layout, texels.texels,
+                       static_cast<std::size_t>(texels.vectors) * sizeof(float4));
 }
 
 NormalTexture uploadMixtures(Device& device, const NormalMap& map, int lobes, bool half,
@@ -42,23 +38,23 @@ NormalTexture uploadMixtures(Device& device, const NormalMap& map, int lobes, bo
   const MixtureOptions options = mixtureOptions(lobes, order, iterations);
   const NormalMixtures mixtures =
       cachedNormalMixtures(map, options, DiskCache::fromEnvironment()).mixtures;
-  if (!half) return upload(device, mixtures.moments);
-  return upload(device, mixtures.moments.layout, packHalfMixtures(mixtures),
-                static_cast<std::size_t>(lobes) * 4 * sizeof(std::uint16_t));
+  if (!half) return uploadTexture(device, mixtures.moments);
+  return uploadTexture(device, mixtures.moments.layout, packHalfMixtures(mixtures),
+                       static_cast<std::size_t>(lobes) * 4 * sizeof(std::uint16_t));
 }
 
 NormalTexture makeTexture(Device& device, const NormalMap& map, NormalMethod method, int lobes,
                           bool half, MixtureOrder order, int iterations) {
   switch (method) {
     case NormalMethod::kFixed:
-      return upload(device, finestNormals(map));
+      return uploadTexture(device, finestNormals(map));
     case NormalMethod::kMip:
     case NormalMethod::kToksvig:
-      return upload(device, meanNormals(map));
+      return uploadTexture(device, meanNormals(map));
     case NormalMethod::kLean:
-      return upload(device, leanMoments(map));
+      return uploadTexture(device, leanMoments(map));
     case NormalMethod::kFournier:
-      return upload(device, fournierPeaks(map));
+      return uploadTexture(device, fournierPeaks(map));
     case NormalMethod::kGmm:
       return uploadMixtures(device, map, lobes, half, order, iterations);
   }

@@ -50,7 +50,7 @@ struct SharedMap {
   Buffer layouts, texels;
 };
 
-std::shared_ptr<SharedMap> makeSharedMap(FrameResources& frame, const KernelConfig& config) {
+SharedMap makeSharedMap(FrameResources& frame, const KernelConfig& config) {
   const std::vector<Material>& materials = frame.scene.materials;
   std::vector<MipTexture> layouts(materials.size());
   const NormalMapSource* shared = nullptr;
@@ -62,11 +62,9 @@ std::shared_ptr<SharedMap> makeSharedMap(FrameResources& frame, const KernelConf
     shared = &*source;
     textureOf(frame, *source, config).layout.read(&layouts[i], sizeof(MipTexture));
   }
-  auto map = std::make_shared<SharedMap>();
-  map->layouts = upload(frame.device, layouts, BufferPurpose::kNormalMapLayouts);
-  map->texels = shared ? textureOf(frame, *shared, config).texels
-                       : upload(frame.device, std::vector<float4>{}, BufferPurpose::kNormalMaps);
-  return map;
+  return {upload(frame.device, layouts, BufferPurpose::kNormalMapLayouts),
+          shared ? textureOf(frame, *shared, config).texels
+                 : upload(frame.device, std::vector<float4>{}, BufferPurpose::kNormalMaps)};
 }
 
 void addArguments(FrameResources& frame, const Material& material, const KernelConfig& config,
@@ -86,20 +84,9 @@ void addArguments(FrameResources& frame, const Material& material, const KernelC
 
 const EffectModule& normalsEffect() {
   static const EffectModule module = {
-      .name = "normals",
-      .called_for =
-          [](const Scene& scene) {
-            return std::ranges::any_of(scene.materials, [](const Material& material) {
-              return material.normal_map.has_value();
-            });
-          },
-      .strip =
-          [](Scene& scene) {
-            for (Material& material : scene.materials) material.normal_map.reset();
-          },
+      .material_calls = [](const Material& material) { return material.normal_map.has_value(); },
+      .strip_material = [](Material& material) { material.normal_map.reset(); },
       .choose = choose,
-      .is_in = [](const KernelConfig& config) { return config.normal_map; },
-      .bit = EFFECT_NORMAL_MAP,
       .planes = {Plane::kUFrac, Plane::kVFrac, Plane::kDudx, Plane::kDvdx, Plane::kDudy,
                  Plane::kDvdy},
       .agree = agree,

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <memory>
 #include <numbers>
 #include <vector>
 
@@ -121,13 +120,12 @@ struct AllScattering {
   Buffer buffer;
 };
 
-std::shared_ptr<AllScattering> uploadAll(FrameResources& frame, const KernelConfig& config) {
+AllScattering uploadAll(FrameResources& frame, const KernelConfig& config) {
   std::vector<MultiscatterMaterial> scatter;
   for (const Material& material : frame.scene.materials)
     scatter.push_back(prepareMultiscatter(
         material, configFor(material, frame.scene, frame.options, config.width)));
-  return std::make_shared<AllScattering>(
-      AllScattering{upload(frame.device, scatter, BufferPurpose::kScattering)});
+  return {upload(frame.device, scatter, BufferPurpose::kScattering)};
 }
 
 }  // namespace
