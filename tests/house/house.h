@@ -33,10 +33,10 @@ std::vector<std::string> includeFaults(const Files& files, const Order& order);
 /// -> a".
 std::vector<std::string> circles(const Files& files);
 
-/// What is wrong with the README.md of host's folders and of those of kernels/: one that is missing,
-/// longer than ten lines, has not the folder's name as its title, or names what is not there. In
-/// host's, "May include" has to name every folder that is included, and none that may not be, and
-/// "After a change" only programs of `programs`.
+/// What is wrong with the README.md of host's folders and of those of kernels/: one that is
+/// missing, longer than ten lines, has not the folder's name as its title, or names what is not
+/// there. In host's, "May include" has to name every folder that is included, and none that may not
+/// be, and "After a change" only programs of `programs`.
 std::vector<std::string> readmeFaults(const Files& files, const Order& order,
                                       const std::set<std::string>& programs);
 

@@ -71,7 +71,9 @@ class KernelHeaders : public OclTest {
   void expectAllCompile(const KernelConfig& config) {
     setenv("GLINTMARK_CACHE_DIR", "off", 1);
     for (const fs::path& header : headers())
-      if (!isTemplate(header)) EXPECT_EQ(includedAlone(header, config), "") << header;
+      if (!isTemplate(header)) {
+        EXPECT_EQ(includedAlone(header, config), "") << header;
+      }
   }
 
   Device device_;
