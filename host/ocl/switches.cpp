@@ -88,7 +88,7 @@ Sweep unswept() {
 
 std::vector<Switch> makeSwitches() {
   std::uint32_t next_bit = 1;
-  const auto takeBit = [&] { return std::exchange(next_bit, next_bit << 1); };
+  const auto take_bit = [&] { return std::exchange(next_bit, next_bit << 1); };
   return {
 #define ROW(macro, member, standard, values, sweep, meaning, set_by, bit) \
   {#macro,                                                                \
@@ -102,7 +102,7 @@ std::vector<Switch> makeSwitches() {
 #define SWEPT_SWITCH(macro, type, member, standard, values, sweep, meaning, set_by) \
   ROW(macro, member, standard, values, sweep, meaning, set_by, 0)
 #define BRANCH(macro, type, member, standard, values, meaning, set_by) \
-  ROW(macro, member, standard, values, unswept(), meaning, set_by, takeBit())
+  ROW(macro, member, standard, values, unswept(), meaning, set_by, take_bit())
 #define KNOB_ELSE(macro, type, member, standard, without, values, effect, ...) \
   SWEPT_SWITCH(macro, type, member, standard, values, __VA_ARGS__)
 #include "host/ocl/switches.inc"
