@@ -18,7 +18,7 @@ namespace glintmark {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr int kSamples = 20000;
+constexpr int kSamples = 8000;
 constexpr double kViews_deg[] = {0.1, 0.5, 1, 3, 10, 30, 60, 90};  // above the surface
 constexpr glm::dvec2 kRoughness[] = {{0.01, 0.01}, {0.03, 0.03}, {0.1, 0.1},  {0.3, 0.3},
                                      {0.5, 0.15},  {0.6, 0.6},   {0.05, 0.5}, {1, 1}};
