@@ -10,7 +10,15 @@
 namespace glintmark {
 
 /// As numbered in probe_glint.cl.
-enum class MathFunction : std::int32_t { kExp2, kLog2, kReciprocal, kRsqrt, kNormalUpperQuantile };
+enum class MathFunction : std::int32_t {
+  kExp2,
+  kLog2,
+  kReciprocal,
+  kRsqrt,
+  kNormalUpperQuantile,
+  kRoot,
+  kExpComplement
+};
 
 /// y = function(x) by the kernels of `width` lanes.
 std::vector<float> probeMath(KernelBench& bench, MathFunction function, const std::vector<float>& x,

@@ -30,6 +30,7 @@ inline constexpr double kFootprintLevel = 6e-6, kFootprintExtent = 2e-7;
 // Elementary functions, as kernels/wide/wide_math.clh states them.
 inline constexpr double kExp2Error = 5e-7, kLog2Error = 2e-7, kReciprocalError = 2e-7;
 inline constexpr double kRsqrtError = 3e-7, kQuantileError = 1.2e-6;
+inline constexpr double kExpComplementError = 1e-5;
 
 /// Deviations of the mean of stratified draws in standard errors; four are exceeded once in 16,000
 /// cases of independent draws, and stratified ones spread less.

@@ -79,6 +79,23 @@ Finding rsqrtError(const CheckContext& context) {
   return finding;
 }
 
+Finding rootError(const CheckContext& context) {
+  Finding finding(kRsqrtError);
+  addErrors(context, finding, MathFunction::kRoot, range(1e-35, 1e37, true),
+            [](double x, double y) { return relative(y, std::sqrt(x)); });
+  addErrors(context, finding, MathFunction::kRoot, {0.0f, -1.0f, 1e-38f},
+            [](double, double y) { return y < 4e-18 ? 0 : y; });
+  return finding;
+}
+
+Finding expComplementError(const CheckContext& context) {
+  Finding finding(kExpComplementError);
+  for (const auto& x : {range(1e-30, 100, true), range(0.01, 0.1, false)})
+    addErrors(context, finding, MathFunction::kExpComplement, x,
+              [](double a, double y) { return relative(y, -std::expm1(-a)); });
+  return finding;
+}
+
 Finding quantileError(const CheckContext& context) {
   const boost::math::normal normal;
   Finding finding(kQuantileError);
@@ -107,7 +124,9 @@ Finding sameBits(const CheckContext& context) {
       {MathFunction::kLog2, range(1.2e-38, 3e38, true)},
       {MathFunction::kReciprocal, range(1e-37, 1e37, true)},
       {MathFunction::kRsqrt, range(1e-37, 1e37, true)},
-      {MathFunction::kNormalUpperQuantile, range(1.2e-10, 1, true)}};
+      {MathFunction::kNormalUpperQuantile, range(1.2e-10, 1, true)},
+      {MathFunction::kRoot, range(1e-37, 1e37, true)},
+      {MathFunction::kExpComplement, range(1e-30, 100, true)}};
   Finding finding(0);
   for (const auto& [function, x] : cases) {
     const auto one = probeMath(context.bench, function, x, 1),
@@ -128,6 +147,8 @@ std::vector<Check> mathsChecks() {
           {"maths/log2", "absolute error", log2Error},
           {"maths/reciprocal", "relative error", reciprocalError},
           {"maths/rsqrt", "relative error", rsqrtError},
+          {"maths/root", "relative error", rootError},
+          {"maths/exp_complement", "relative error", expComplementError},
           {"maths/quantile", "relative error", quantileError},
           {"maths/quantile_ends", "values that are not finite", quantileEnds},
           {"maths/same_bits", "values that differ from one lane's", sameBits}};

@@ -16,7 +16,9 @@ kernel void probeMath(global const float* in, global float* out, uint count, int
                    : function == 1 ? wideLog2(x)
                    : function == 2 ? wideReciprocal(x)
                    : function == 3 ? wideRsqrt(x)
-                                   : normalUpperQuantile(x);
+                   : function == 4 ? normalUpperQuantile(x)
+                   : function == 5 ? wideRoot(x)
+                                   : wideExpComplement(x);
   storeFloat(y, out, FIRST);
 }
 
