@@ -139,7 +139,7 @@ TEST(Readmes, ThatSayOtherwiseAreFaults) {
     std::string text, include, reason;
   };
   const Broken broken[] = {
-      {std::string(kReadme) + "\n\n\n\n\n", "<vector>", "more than 10 lines"},
+      {kReadme + std::string(5, '\n'), "<vector>", "more than 10 lines"},
       {replaced(kReadme, "# frame:", "# frames:"), "<vector>", "does not begin with \"# frame: \""},
       {replaced(kReadme, "`frame.h`", "`gone.h`"), "<vector>", "there is no gone.h"},
       {replaced(kReadme, "`effect/`", "`effects/`"), "<vector>", "there is no effects/"},
