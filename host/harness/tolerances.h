@@ -49,7 +49,7 @@ inline constexpr double kExpansionSigmas = 0.01;
 inline constexpr double kEnergyTolerance = 0.01;
 
 /// The smooth lobe under a cone of light, relative to the integral or to the brightest of that
-/// view: quadrature of up to 8 x 8 points over a Gaussian leaves 1.3 %, and where the horizon cuts
+/// view: quadrature of up to 8 x 8 points over a Gaussian leaves 1.4 %, and where the horizon cuts
 /// a cone wider than a lobe of any roughness, its corner falls between the points.
 inline constexpr double kNarrowConeTolerance = 0.02, kWideConeTolerance = 0.2;
 inline constexpr double kConeNarrow_deg = 45;
