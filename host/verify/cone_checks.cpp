@@ -10,7 +10,6 @@
 #include "host/frame/effect/lights.h"
 #include "host/harness/pixel_harness.h"
 #include "host/harness/tolerances.h"
-#include "host/ocl/upload.h"
 #include "host/reference/light_cone.h"
 #include "host/verify/check_groups.h"
 
@@ -57,10 +56,10 @@ std::vector<ProbedCone> probe(const CheckContext& context, std::vector<ConeCase>
   Device& device = context.bench.device;
   Buffer output(device, out.size() * 4, BufferPurpose::kProbe, "lobes under cones");
   const std::vector<ConeLight> light = {coneLight({0, 0, 1}, half_rad)};
-  const std::vector<KernelArg> args = {
-      upload(device, in, BufferPurpose::kProbe), output, static_cast<std::uint32_t>(n),
-      upload(device, std::vector{material}, BufferPurpose::kProbe),
-      upload(device, prepareLights(light).lights, BufferPurpose::kProbe)};
+  const std::vector<KernelArg> args = {probeData(context.bench, in), output,
+                                       static_cast<std::uint32_t>(n),
+                                       probeData(context.bench, std::vector{material}),
+                                       probeData(context.bench, prepareLights(light).lights)};
   probeKernel(
       context.bench, "probes/probe_cone.cl", "probeCone",
       fmt::format("-D WIDTH={} -D LIGHT_CONE=1 -D GROOVE={}", context.lanes, groove ? 1 : 0))
@@ -197,13 +196,12 @@ Finding mapped(const CheckContext& context, double half_deg) {
     Device& device = context.bench.device;
     Buffer output(device, out.size() * 4, BufferPurpose::kProbe, "mapped lobes under cones");
     const std::vector<ConeLight> light = {coneLight({0, 0, 1}, half_rad)};
-    const std::vector<KernelArg> args = {
-        upload(device, in, BufferPurpose::kProbe),
-        output,
-        static_cast<std::uint32_t>(n_padded),
-        upload(device, prepareLights(light).lights, BufferPurpose::kProbe),
-        static_cast<float>(alpha),
-        0.0f};
+    const std::vector<KernelArg> args = {probeData(context.bench, in),
+                                         output,
+                                         static_cast<std::uint32_t>(n_padded),
+                                         probeData(context.bench, prepareLights(light).lights),
+                                         static_cast<float>(alpha),
+                                         0.0f};
     probeKernel(context.bench, "probes/probe_mapped_cone.cl", "probeMappedCone",
                 fmt::format("-D WIDTH={} -D LIGHT_CONE=1 -D NORMAL_MAP=1 -D LOBES=1 -D DIFFUSE=1",
                             context.lanes))
