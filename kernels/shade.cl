@@ -43,7 +43,6 @@ WIDE vfloat3 shadeOwners(Shading shading, vint owner, size_t entry) {
 // materials.
 kernel void shade(global const uint* planes, constant const FrameParams* frame,
                   constant const MaterialParams* material, constant const LightParams* lights,
-                  constant const float4* taps,
 #if NORMAL_MAP
                   constant const MipTexture* map, global const float4* map_texels,
 #endif
@@ -55,6 +54,9 @@ kernel void shade(global const uint* planes, constant const FrameParams* frame,
 #endif
 #if SCATTERING
                   constant const MultiscatterMaterial* scatter,
+#endif
+#if LIGHT_TAPS
+                  constant const LightTaps* light_taps, constant const float4* taps,
 #endif
 #if ALL_MATERIALS
                   global const uint* owners,
@@ -75,13 +77,16 @@ kernel void shade(global const uint* planes, constant const FrameParams* frame,
   shading.frame = frame;
   shading.material = material;
   shading.lights = lights;
-  shading.taps = taps;
 #if NORMAL_MAP
   shading.map = map;
   shading.map_texels = map_texels;
 #endif
 #if SCATTERING
   shading.scatter = scatter;
+#endif
+#if LIGHT_TAPS
+  shading.light_taps = light_taps;
+  shading.taps = taps;
 #endif
 #if LTC
   shading.area_lights = area_lights;

@@ -159,10 +159,9 @@ WIDE void addToPlane(vfloat value, global float* sums, size_t i) {
 
 // Adds `sample_count` samples from number `sample_begin` on to `sums`: six planes of
 // frame->plane_stride entries, radiance (r, g, b) and its squares. Lights are sampled over their
-// cones, so `taps`, which frames read, goes unused.
+// cones.
 kernel void truth(global const uint* planes, constant const FrameParams* frame,
                   constant const MaterialParams* material, constant const LightParams* lights,
-                  constant const float4* taps,
 #if NORMAL_MAP
                   constant const MipTexture* map, global const float4* map_texels,
 #endif

@@ -43,16 +43,14 @@ typedef struct ConeLight {
   float4 irradiance;  // rgb on a surface that faces the light's axis; w unused
 } ConeLight;
 
-// A ConeLight made ready for the kernels by host/frame. For what is smooth over a light, diffuse
-// lobes, directions of it stand in the tap buffer as float4 (xyz: unit vector).
+// A ConeLight made ready for the kernels by host/frame.
 typedef struct LightParams {
   float4 direction;     // xyz: unit vector towards the light's axis; w: slope radius of its half
                         // vectors near the normal, half the cone's half-angle [rad]
   float4 power;         // rgb: radiance times solid angle; w unused
   float one_minus_cos;  // of the half-angle, 0 for a point
   float cotangent;      // of the half-angle, 0 at 90 degrees and for a point
-  uint first_tap;
-  uint tap_count;  // >= 1
+  uint reserved[2];     // 0
 } LightParams;
 
 // What one shading launch needs beside its pixels.

@@ -7,5 +7,6 @@ namespace glintmark {
 #include "kernels/scatter/multiscatter.h"
 
 static_assert(sizeof(MultiscatterMaterial) == 208);
+static_assert(sizeof(LightTaps) == 8);
 
 }  // namespace glintmark

@@ -63,10 +63,9 @@ void FramePass::makeBands() {
 }
 
 void FramePass::makeLights() {
-  const PreparedLights prepared = prepareLights(scene_.lights);
-  light_count_ = static_cast<uint>(prepared.lights.size());
-  lights_ = upload(device_, prepared.lights, BufferPurpose::kLights);
-  taps_ = upload(device_, prepared.taps, BufferPurpose::kTaps);
+  const std::vector<LightParams> prepared = prepareLights(scene_.lights);
+  light_count_ = static_cast<uint>(prepared.size());
+  lights_ = upload(device_, prepared, BufferPurpose::kLights);
 }
 
 void FramePass::makeBuffers(Band& band, FrameTimes& times) {
@@ -128,8 +127,7 @@ ShadeArguments FramePass::argumentsOf(const Band& band, const PixelList& list,
   ShadeArguments arguments({.planes = band.plane_buffer,
                             .frame = frameParams(band, list, config),
                             .material = materialBuffer(material, config),
-                            .lights = lights_,
-                            .taps = taps_});
+                            .lights = lights_});
   for (const Effect effect : effectsOf(config).list())
     if (const EffectModule& module = effectModule(effect); module.add_arguments)
       module.add_arguments(resources_, material, config, arguments);

@@ -102,7 +102,7 @@ class FramePass {
 
   std::vector<Band> bands_;
   std::vector<KernelConfig> configs_;
-  Buffer lights_, taps_;
+  Buffer lights_;
   uint light_count_ = 0;
   double build_ns_ = 0;
 };

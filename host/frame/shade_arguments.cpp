@@ -14,7 +14,6 @@ ShadeArguments::ShadeArguments(const ShadeInputs& inputs) {
   add("frame", inputs.frame);
   add("material", inputs.material);
   add("lights", inputs.lights);
-  add("taps", inputs.taps);
 }
 
 void ShadeArguments::add(std::string name, KernelArg value) {

@@ -11,7 +11,7 @@ namespace glintmark {
 
 /// What every kernel of kernels/shade.cl and truth.cl reads first, by its names for them.
 struct ShadeInputs {
-  Buffer planes, frame, material, lights, taps;
+  Buffer planes, frame, material, lights;
 };
 
 /// Arguments in the kernel's order, each under the name that the kernel has for it.

@@ -7,6 +7,7 @@
 #include "host/core/error.h"
 #include "host/core/float4.h"
 #include "host/core/planes.h"
+#include "host/frame/effect/light_taps.h"
 #include "host/frame/effect/lights.h"
 #include "host/frame/effects.h"
 #include "host/frame/shade_arguments.h"
@@ -69,15 +70,18 @@ ShadedPixels shadePixels(KernelBench& bench, const HandMadeFrame& frame, KernelC
   const std::size_t n = frame.pixels.size();
   const std::size_t stride = (n + GM_LIST_PADDING - 1) / GM_LIST_PADDING * GM_LIST_PADDING;
 
-  PreparedLights lights = prepareLights(frame.lights);
   Buffer radiance(device, stride * 12, BufferPurpose::kProbe, "radiance");
   Buffer counts(device, stride * 4, BufferPurpose::kProbe, "counts");
   ShadeArguments arguments({.planes = probeData(bench, planeWords(frame, config.planes, stride)),
                             .frame = probeData(bench, std::vector{paramsOf(frame, stride)}),
                             .material = probeData(bench, std::vector{frame.material}),
-                            .lights = probeData(bench, lights.lights),
-                            .taps = probeData(bench, lights.taps)});
+                            .lights = probeData(bench, prepareLights(frame.lights))});
   if (frame.scatter) arguments.add("scatter", probeData(bench, std::vector{*frame.scatter}));
+  if (config.multiscatter != Multiscatter::kOff) {
+    const PreparedTaps taps = prepareTaps(frame.lights);
+    arguments.add("light_taps", probeData(bench, taps.lights));
+    arguments.add("taps", probeData(bench, taps.directions));
+  }
   arguments.add("radiance", radiance);
   if (config.count_cells) arguments.add("cell_counts", counts);
   const auto lanes = static_cast<std::size_t>(config.width);

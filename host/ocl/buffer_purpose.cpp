@@ -20,6 +20,8 @@ std::string_view purposeName(BufferPurpose purpose) {
       return "the materials' scattering";
     case BufferPurpose::kLights:
       return "the lights";
+    case BufferPurpose::kLightTaps:
+      return "the lights' shares of the taps";
     case BufferPurpose::kTaps:
       return "the lights' taps";
     case BufferPurpose::kNormalMapLayouts:

@@ -13,6 +13,7 @@ enum class BufferPurpose {
   kMaterials,
   kScattering,
   kLights,
+  kLightTaps,
   kTaps,
   kNormalMapLayouts,
   kNormalMaps,

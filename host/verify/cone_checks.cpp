@@ -59,7 +59,7 @@ std::vector<ProbedCone> probe(const CheckContext& context, std::vector<ConeCase>
   const std::vector<KernelArg> args = {probeData(context.bench, in), output,
                                        static_cast<std::uint32_t>(n),
                                        probeData(context.bench, std::vector{material}),
-                                       probeData(context.bench, prepareLights(light).lights)};
+                                       probeData(context.bench, prepareLights(light))};
   probeKernel(
       context.bench, "probes/probe_cone.cl", "probeCone",
       fmt::format("-D WIDTH={} -D LIGHT_CONE=1 -D GROOVE={}", context.lanes, groove ? 1 : 0))
@@ -199,7 +199,7 @@ Finding mapped(const CheckContext& context, double half_deg) {
     const std::vector<KernelArg> args = {probeData(context.bench, in),
                                          output,
                                          static_cast<std::uint32_t>(n_padded),
-                                         probeData(context.bench, prepareLights(light).lights),
+                                         probeData(context.bench, prepareLights(light)),
                                          static_cast<float>(alpha),
                                          0.0f};
     probeKernel(context.bench, "probes/probe_mapped_cone.cl", "probeMappedCone",

@@ -35,7 +35,7 @@ Finding structLayouts(const CheckContext& context) {
       offsetof(MaterialParams, glints.palette),
       offsetof(ConeLight, irradiance),
       offsetof(LightParams, one_minus_cos),
-      offsetof(LightParams, tap_count),
+      offsetof(LightParams, cotangent),
       offsetof(FrameParams, light_count),
       offsetof(FrameParams, plane_stride)};
   addDifferences<kOffsets.size()>(context.bench, finding, "probeTypeOffsets", kOffsets);

@@ -39,7 +39,7 @@ __kernel void probeTypeOffsets(__global uint* out) {
   out[4] = OFFSET_OF(material, glints.palette);
   out[5] = OFFSET_OF(light, irradiance);
   out[6] = OFFSET_OF(ready_light, one_minus_cos);
-  out[7] = OFFSET_OF(ready_light, tap_count);
+  out[7] = OFFSET_OF(ready_light, cotangent);
   out[8] = OFFSET_OF(params, light_count);
   out[9] = OFFSET_OF(params, plane_stride);
 }

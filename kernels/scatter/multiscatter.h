@@ -1,5 +1,6 @@
-// What the kernels need of a material whose microfacets scatter light more than once, once for host
-// and kernels. Rules as in types.h. Polynomials are in a cosine, lowest power first.
+// What the kernels need of a material whose microfacets scatter light more than once, and of lights
+// for it, once for host and kernels. Rules as in types.h. Polynomials are in a cosine, lowest power
+// first.
 #ifndef GLINTMARK_MULTISCATTER_H
 #define GLINTMARK_MULTISCATTER_H
 
@@ -27,5 +28,12 @@ typedef struct MultiscatterMaterial {
   float masking;                   // lobes: importance of the masking factor, [0, 1]
   float warp;                      // metals: MS_WARP times the roughness
 } MultiscatterMaterial;
+
+// Which of the taps are a cone light's: directions of equal solid angles within its cone, as float4
+// (xyz: unit vector). What is smooth over a light sums over them.
+typedef struct LightTaps {
+  uint first;
+  uint count;  // >= 1
+} LightTaps;
 
 #endif

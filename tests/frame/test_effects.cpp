@@ -127,6 +127,8 @@ TEST_P(SetOfEffects, AllocatesWhatItsEffectsReadAndNoMore) {
   EXPECT_EQ(made(BufferPurpose::kAreaLights), set.has(Effect::kLtc));
   EXPECT_EQ(made(BufferPurpose::kScattering),
             set.has(Effect::kMultiscatter) || set.has(Effect::kCompensation));
+  EXPECT_EQ(made(BufferPurpose::kLightTaps), set.has(Effect::kMultiscatter));
+  EXPECT_EQ(made(BufferPurpose::kTaps), set.has(Effect::kMultiscatter));
   EXPECT_FALSE(made(BufferPurpose::kLightPictures));
   EXPECT_FALSE(made(BufferPurpose::kCellCounts));
   EXPECT_FALSE(made(BufferPurpose::kOwners));
@@ -153,7 +155,7 @@ const std::vector<std::pair<Effect, std::vector<std::string>>>& effectFunctions(
       {Effect::kNormals, {"filterNormals", "evaluateMappedLight", "evaluateShape", "lobeFromM"}},
       {Effect::kLtc, {"shadeAreaLights", "lookUpLtc", "seeLight", "loadLitPoint"}},
       {Effect::kMultiscale, {"footprintAlpha", "fetchMeanNormal"}},
-      {Effect::kMultiscatter, {"addScattered", "scatterLight", "scatterView"}},
+      {Effect::kMultiscatter, {"addScattered", "scatterLight", "scatterView", "light_taps"}},
       {Effect::kCompensation, {"compensate"}}};
   return functions;
 }

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "host/frame/effect/light_taps.h"
 #include "host/frame/effect/lights.h"
 
 namespace glintmark {
@@ -27,58 +28,62 @@ glm::dvec3 toDouble(const float4& v) {
 TEST(Lights, PowerGivesTheIrradianceBack) {
   for (const double half_deg : {0.0, 0.25, 5.0, 45.0, 90.0}) {
     const ConeLight light = cone(half_deg);
-    const PreparedLights prepared = prepareLights({&light, 1});
+    const LightParams prepared = prepareLights({&light, 1})[0];
     // Irradiance on a facing surface is radiance x solid angle x the mean cosine, (1 + cos) / 2.
     const double mean_cosine = 0.5 * (1 + std::cos(half_deg * kDegree));
-    EXPECT_NEAR(prepared.lights[0].power.x * mean_cosine, 1, 1e-6) << half_deg;
-    EXPECT_NEAR(prepared.lights[0].power.z * mean_cosine, 3, 1e-5) << half_deg;
+    EXPECT_NEAR(prepared.power.x * mean_cosine, 1, 1e-6) << half_deg;
+    EXPECT_NEAR(prepared.power.z * mean_cosine, 3, 1e-5) << half_deg;
   }
 }
 
-TEST(Lights, TapsLieInTheConeAndAverageToItsAxis) {
+TEST(LightTaps, LieInTheConeAndAverageToItsAxis) {
   const glm::dvec3 axis = glm::normalize(glm::dvec3(0.6, 0, 1.6));
   for (const double half_deg : {0.0, 0.25, 5.0, 12.0, 15.0, 30.0, 45.0, 90.0}) {
     const ConeLight light = cone(half_deg);
-    const PreparedLights prepared = prepareLights({&light, 1});
-    ASSERT_EQ(prepared.taps.size(), prepared.lights[0].tap_count);
+    const PreparedTaps prepared = prepareTaps({&light, 1});
+    ASSERT_EQ(prepared.directions.size(), prepared.lights[0].count);
     const double cosine = std::cos(half_deg * kDegree);
     glm::dvec3 mean(0.0);
-    for (const float4& tap : prepared.taps) {
+    for (const float4& tap : prepared.directions) {
       const glm::dvec3 d = toDouble(tap);
       EXPECT_NEAR(glm::length(d), 1, 1e-6);
       EXPECT_GE(glm::dot(d, axis), cosine - 1e-6);
-      mean += d / static_cast<double>(prepared.taps.size());
+      mean += d / static_cast<double>(prepared.directions.size());
     }
     // The cone's own mean direction, to a tenth of its radius.
-    const glm::dvec3 want = axis * (prepared.taps.size() == 1 ? 1.0 : 0.5 * (1 + cosine));
+    const glm::dvec3 want = axis * (prepared.directions.size() == 1 ? 1.0 : 0.5 * (1 + cosine));
     EXPECT_LT(glm::length(mean - want), 0.1 * std::sin(half_deg * kDegree) + 1e-6)
-        << half_deg << " degrees, " << prepared.taps.size() << " taps";
+        << half_deg << " degrees, " << prepared.directions.size() << " taps";
   }
 }
 
 TEST(Lights, TheConeIsItsHalfAngle) {
   for (const double half_deg : {0.01, 1.0, 20.0, 60.0, 90.0}) {
     const ConeLight light = cone(half_deg);
-    const LightParams params = prepareLights({&light, 1}).lights[0];
+    const LightParams params = prepareLights({&light, 1})[0];
     const double angle = light.direction.w;
     EXPECT_NEAR(params.one_minus_cos / (2 * std::pow(std::sin(angle / 2), 2)), 1, 1e-6);
     EXPECT_NEAR(params.cotangent * std::tan(angle), 1, half_deg == 90 ? 1 : 1e-6);
   }
   const ConeLight point = cone(0);
-  EXPECT_EQ(prepareLights({&point, 1}).lights[0].one_minus_cos, 0);
+  EXPECT_EQ(prepareLights({&point, 1})[0].one_minus_cos, 0);
 }
 
-TEST(Lights, SeveralLightsShareTheTapBuffer) {
+TEST(LightTaps, OfSeveralLightsStandOneAfterAnother) {
   const std::vector<ConeLight> lights = {cone(0), cone(40), cone(1)};
-  const PreparedLights prepared = prepareLights(lights);
+  const PreparedTaps prepared = prepareTaps(lights);
   ASSERT_EQ(prepared.lights.size(), 3u);
   uint next = 0;
-  for (const LightParams& light : prepared.lights) {
-    EXPECT_EQ(light.first_tap, next);
-    next += light.tap_count;
+  for (const LightTaps& light : prepared.lights) {
+    EXPECT_EQ(light.first, next);
+    next += light.count;
   }
-  EXPECT_EQ(next, prepared.taps.size());
-  EXPECT_TRUE(prepareLights({}).lights.empty());
+  EXPECT_EQ(next, prepared.directions.size());
+}
+
+TEST(Lights, OfNoneNothingIsMade) {
+  EXPECT_TRUE(prepareLights({}).empty());
+  EXPECT_TRUE(prepareTaps({}).directions.empty());
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ Program shadeProgram() {
 }
 
 ShadeArguments inputs() {
-  return ShadeArguments({room(), room(), room(), room(), room()});
+  return ShadeArguments({room(), room(), room(), room()});
 }
 
 std::string errorOf(const ShadeArguments& arguments) {
@@ -57,8 +57,8 @@ TEST(ShadeArguments, AreGivenOtherValuesByName) {
   arguments.add("sample_begin", 0u);
   arguments.add("sample_count", 0u);
   arguments.set("sample_begin", 7u);
-  EXPECT_EQ(std::get<std::uint32_t>(arguments.values()[5]), 7u);
-  EXPECT_EQ(std::get<std::uint32_t>(arguments.values()[6]), 0u);
+  EXPECT_EQ(std::get<std::uint32_t>(arguments.values()[4]), 7u);
+  EXPECT_EQ(std::get<std::uint32_t>(arguments.values()[5]), 0u);
   EXPECT_THROW(arguments.set("sample_end", 1u), Error);
 }
 
@@ -67,25 +67,24 @@ TEST_F(NamedParameters, ABufferInAnothersPlaceIsAnErrorThatNamesBoth) {
   ShadeArguments arguments = inputs();
   arguments.add("map_texels", room());
   EXPECT_EQ(errorOf(arguments),
-            "argument 5 of kernel 'shade' must be 'radiance', but 'map_texels' was given");
+            "argument 4 of kernel 'shade' must be 'radiance', but 'map_texels' was given");
 }
 
 TEST_F(NamedParameters, MissingOnesAndThoseTooManyAreNamed) {
   ShadeArguments arguments = inputs();
   EXPECT_EQ(errorOf(arguments),
-            "argument 5 of kernel 'shade' must be 'radiance', but nothing was given");
+            "argument 4 of kernel 'shade' must be 'radiance', but nothing was given");
   arguments.add("radiance", room());
   arguments.add("cell_counts", room());
   EXPECT_EQ(errorOf(arguments),
-            "argument 6 of kernel 'shade' must be nothing, but 'cell_counts' was given");
+            "argument 5 of kernel 'shade' must be nothing, but 'cell_counts' was given");
 }
 
 // Programs from the disk keep the names, too.
 TEST_F(NamedParameters, ProgramsFromTheDiskTellTheSame) {
   const Program again = shadeProgram();
   if (!again.fromDiskCache()) GTEST_SKIP() << "the disk cache is off";
-  const std::vector<std::string> wanted = {"planes", "frame", "material",
-                                           "lights", "taps",  "radiance"};
+  const std::vector<std::string> wanted = {"planes", "frame", "material", "lights", "radiance"};
   EXPECT_EQ(again.kernel("shade").parameterNames(), wanted);
 }
 

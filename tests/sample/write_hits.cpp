@@ -63,7 +63,7 @@ void write(const std::string& method, const std::string& path) {
   renderer.shade();
   const Image image = renderer.readRadiance();
   const PixelPlanes& planes = renderer.planes();
-  const LightParams light = prepareLights(scene.lights).lights.front();
+  const LightParams light = prepareLights(scene.lights).front();
 
   HitsHeader header{};
   static_assert(sizeof header.material == sizeof(MaterialParams));

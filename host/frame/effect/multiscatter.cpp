@@ -1,8 +1,10 @@
 // Rough diffuse facets among which light is scattered more than once. [PAT18]
 #include <algorithm>
 
+#include "host/frame/effect/light_taps.h"
 #include "host/frame/effect/scattering_params.h"
 #include "host/frame/effect_module.h"
+#include "host/ocl/upload.h"
 
 namespace glintmark {
 namespace {
@@ -33,6 +35,24 @@ void chooseForAll(std::span<const KernelConfig> own, const ShadingOptions&, Kern
   all.lobe_masking = hasLobes(all);
 }
 
+struct TapBuffers {
+  Buffer lights, directions;
+};
+
+TapBuffers uploadTaps(FrameResources& frame) {
+  const PreparedTaps taps = prepareTaps(frame.scene.lights);
+  return {upload(frame.device, taps.lights, BufferPurpose::kLightTaps),
+          upload(frame.device, taps.directions, BufferPurpose::kTaps)};
+}
+
+void addArguments(FrameResources& frame, const Material& material, const KernelConfig& config,
+                  ShadeArguments& arguments) {
+  addScattering(frame, material, config, arguments);
+  const auto& taps = frame.kept<TapBuffers>([&] { return uploadTaps(frame); });
+  arguments.add("light_taps", taps.lights);
+  arguments.add("taps", taps.directions);
+}
+
 }  // namespace
 
 const EffectModule& multiscatterEffect() {
@@ -43,7 +63,7 @@ const EffectModule& multiscatterEffect() {
       .choose = choose,
       .agree = agree,
       .choose_for_all = chooseForAll,
-      .add_arguments = addScattering};
+      .add_arguments = addArguments};
   return module;
 }
 
