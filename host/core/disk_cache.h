@@ -16,7 +16,10 @@ class DiskCache {
   /// $GLINTMARK_CACHE_DIR, else $XDG_CACHE_HOME/glintmark, else ~/.cache/glintmark; "off" or no
   /// home turns the cache off.
   static DiskCache fromEnvironment();
+  /// Keeps nothing.
+  static DiskCache off() { return {}; }
 
+  bool isOff() const { return folder_.empty(); }
   /// The binary stored under `name` for `key`; nothing if absent, truncated, damaged or stale.
   std::optional<std::string> load(const std::string& name, const std::string& key) const;
   /// Stores through a temporary file and a rename, so that a reader never sees half an entry.

@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <string_view>
 
 #include "host/core/atomic_file.h"
 #include "host/core/disk_cache.h"
@@ -33,6 +35,13 @@ std::optional<cl::Program> buildFromBinary(const Device::Impl& device, const std
   } catch (const cl::Error&) {
     return std::nullopt;  // stale or damaged: the caller builds from source
   }
+}
+
+// Drivers such as PoCL keep what they compile themselves.
+DiskCache programsOnDisk() {
+  const char* chosen = std::getenv("GLINTMARK_PROGRAM_CACHE");
+  return chosen && std::string_view(chosen) == "off" ? DiskCache::off()
+                                                     : DiskCache::fromEnvironment();
 }
 
 }  // namespace
@@ -73,7 +82,7 @@ struct ProgramCache::Impl {
   DeviceInfo info;
   Device::Impl device;
   std::string folder = kernelFolder();
-  DiskCache disk = DiskCache::fromEnvironment();
+  DiskCache disk = programsOnDisk();
   std::map<std::string, std::shared_ptr<BuiltProgram>> memory;  // by key
 };
 
@@ -104,7 +113,7 @@ Program ProgramCache::Impl::build(const std::string& file, const std::string& ow
   memory[key] = program->built;
   program->build_ns = watch.elapsedNs();
   // After the clock has stopped: asking PoCL for a binary compiles every kernel once more.
-  if (!program->from_disk_cache) disk.store(name, key, programBinary(*built));
+  if (!program->from_disk_cache && !disk.isOff()) disk.store(name, key, programBinary(*built));
   return Program(program);
 }
 
