@@ -29,8 +29,8 @@ void draw(benchmark::State& state, GlintMethod method, const std::vector<Binomia
 void registerAll() {
   for (const auto& [name, method] :
        {std::pair("zk16", GlintMethod::kZk16), std::pair("exact", GlintMethod::kExact)}) {
-    const auto add = [&, method = method](const std::string& what,
-                                          const std::vector<BinomialCase>& cases) {
+    const auto add = [&, name = name, method = method](const std::string& what,
+                                                       const std::vector<BinomialCase>& cases) {
       registerLanes(fmt::format("binomial/{}/{}", name, what),
                     [method, cases](benchmark::State& state, int lanes) {
                       draw(state, method, cases, lanes);

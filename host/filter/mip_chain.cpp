@@ -13,6 +13,7 @@ namespace {
 
 std::vector<MipCover> covers(int coarse, int fine) {
   std::vector<MipCover> all;
+  all.reserve(static_cast<std::size_t>(coarse));
   for (int x = 0; x < coarse; ++x) all.push_back(mipCover(x, coarse, fine));
   return all;
 }

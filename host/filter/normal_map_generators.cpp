@@ -162,6 +162,7 @@ constexpr std::array kGenerators = {
 
 std::vector<std::string> normalMapGenerators() {
   std::vector<std::string> names;
+  names.reserve(std::size(kGenerators));
   for (const Generator& generator : kGenerators) names.emplace_back(generator.kind);
   return names;
 }

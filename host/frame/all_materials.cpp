@@ -59,8 +59,9 @@ PixelPlanes inScreenOrder(const PixelPlanes& planes, std::vector<std::uint32_t>&
     std::uint32_t* to = out.storage.data() + slot * out.stride;
     for (std::size_t i = 0; i < entries.size(); ++i) to[i] = from[entries[i]];
   }
-  std::vector<std::uint32_t> reordered;
-  for (const std::uint32_t entry : entries) reordered.push_back(owners[entry]);
+  std::vector<std::uint32_t> reordered(entries.size());
+  std::ranges::transform(entries, reordered.begin(),
+                         [&](std::uint32_t entry) { return owners[entry]; });
   owners = std::move(reordered);
   return out;
 }

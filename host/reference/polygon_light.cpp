@@ -92,9 +92,9 @@ class TriangleCubature {
   }
 
   double sevenPoints(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) const {
-    static const std::array<CubaturePoint, 7> kPoints = radonPoints();
+    static const std::array<CubaturePoint, 7> points = radonPoints();
     double sum = 0;
-    for (const CubaturePoint& point : kPoints) {
+    for (const CubaturePoint& point : points) {
       const glm::dvec3 p = a + point.u * (b - a) + point.v * (c - a);
       const double length = glm::length(p);
       sum += point.weight * integrand_(p / length) / (length * length * length);

@@ -24,6 +24,7 @@ std::vector<MeshPlan::PartRule> readParts(std::optional<SceneTable> table,
                      [&name = material_name](const Material& m) { return m.name == name; });
     if (found == materials.end()) {
       std::vector<std::string> known;
+      known.reserve(materials.size());
       for (const Material& material : materials) known.push_back(material.name);
       table->fail(pattern, fmt::format("is '{}', known materials are {}", material_name,
                                        fmt::join(known, ", ")));

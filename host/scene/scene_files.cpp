@@ -40,12 +40,12 @@ std::vector<std::string> listScenes() {
 
 fs::path findSceneFile(const std::string& scene) {
   std::error_code error;
-  const fs::path path(scene);
+  fs::path path(scene);
   if (path.extension() == ".toml") {
     if (fs::is_regular_file(path, error)) return path;
     throw Error(fmt::format("no scene file {}, expected a .toml file that exists", scene));
   }
-  const fs::path file = sceneFolder() / (scene + ".toml");
+  fs::path file = sceneFolder() / (scene + ".toml");
   if (!scene.empty() && !path.has_parent_path() && fs::is_regular_file(file, error)) return file;
   throw Error(fmt::format("no scene '{}' in {}, known are {}", scene, sceneFolder().string(),
                           fmt::join(listScenes(), ", ")));

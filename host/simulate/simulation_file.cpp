@@ -17,7 +17,7 @@ constexpr std::size_t kWordBytes = 8;
 std::string takeLine(const std::string& text, std::size_t& position) {
   const std::size_t end = text.find('\n', position);
   if (end == std::string::npos) return "";
-  const std::string line = text.substr(position, end - position);
+  std::string line = text.substr(position, end - position);
   position = end + 1;
   return line;
 }

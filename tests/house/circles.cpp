@@ -37,13 +37,14 @@ void addCircles(std::vector<std::string>& found, const Graph& graph, const Graph
   const auto arrows = [](const auto& circle) { return std::ranges::count(circle.second, '>'); };
   std::ranges::stable_sort(all, {}, arrows);
   std::vector<std::string> shown;
-  for (const auto& [node, circle] : all) {
+  for (const auto& circle : all) {
+    const std::string& node = circle.first;
     const bool hangs_together = std::ranges::any_of(shown, [&](const std::string& other) {
       return !way(graph, node, other).empty() && !way(graph, other, node).empty();
     });
     if (hangs_together) continue;
     shown.push_back(node);
-    found.push_back(circle);
+    found.push_back(circle.second);
   }
 }
 

@@ -1,4 +1,6 @@
 // What a folder says of itself.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <regex>
@@ -13,8 +15,8 @@ constexpr int kMostLines = 10;
 // What stands between backquotes.
 std::vector<std::string> quotedIn(const std::string& text) {
   std::vector<std::string> names;
-  static const std::regex kQuoted("`([^`]+)`");
-  for (std::sregex_iterator it(text.begin(), text.end(), kQuoted), end; it != end; ++it)
+  static const std::regex quoted_name("`([^`]+)`");
+  for (std::sregex_iterator it(text.begin(), text.end(), quoted_name), end; it != end; ++it)
     names.push_back((*it)[1]);
   return names;
 }
@@ -23,16 +25,16 @@ std::vector<std::string> quotedIn(const std::string& text) {
 std::string sentence(const std::string& text, const std::string& start) {
   const std::size_t at = text.find(start);
   if (at == std::string::npos) return "";
-  static const std::regex kEnd(R"(\.\s|\.$)");
+  static const std::regex full_stop(R"(\.\s|\.$)");
   std::smatch end;
   const std::string rest = text.substr(at);
-  return std::regex_search(rest, end, kEnd) ? rest.substr(0, end.position(0)) : rest;
+  return std::regex_search(rest, end, full_stop) ? rest.substr(0, end.position(0)) : rest;
 }
 
 // Names of one place: folders end in '/', files have an extension that the project uses.
 bool isPath(const std::string& name) {
-  static const std::regex kPath(R"([\w./+-]+(/|\.(h|cpp|cl|clh|txt|md|toml|css|js|cmake)))");
-  return std::regex_match(name, kPath);
+  static const std::regex path_name(R"([\w./+-]+(/|\.(h|cpp|cl|clh|txt|md|toml|css|js|cmake)))");
+  return std::regex_match(name, path_name);
 }
 
 bool exists(const std::string& folder, const std::string& name, const Files& files) {
@@ -77,15 +79,15 @@ void addIncludeFaults(std::vector<std::string>& faults, const std::string& folde
   const std::vector<std::string> named = quotedIn(may);
   for (const std::string& included : foldersIncludedBy(folder, files))
     if (std::ranges::none_of(named, [&](const std::string& n) { return covers(n, included); }))
-      faults.push_back(readme + "\"May include\" does not name " + included +
-                       ", which the folder includes");
+      faults.push_back(fmt::format("{}\"May include\" does not name {}, which the folder includes",
+                                   readme, included));
   for (const std::string& name : named) {
     const std::string top = partOf(name, 0);
     if (top == "kernels" || top == own) continue;
     const int floor = order.floorOf(top);
     if (floor < 0 || floor >= order.floorOf(own))
-      faults.push_back(readme + "\"May include\" names " + name +
-                       ", which host/order.txt does not allow");
+      faults.push_back(fmt::format(
+          "{}\"May include\" names {}, which host/order.txt does not allow", readme, name));
   }
 }
 
@@ -98,18 +100,19 @@ void addHostFaults(std::vector<std::string>& faults, const std::string& folder,
     faults.push_back(folder + "/README.md: does not say what to run (\"After a change: ….\")");
   for (const std::string& name : quotedIn(after))
     if (!programs.contains(name) && !name.starts_with("glintmark "))
-      faults.push_back(folder + "/README.md: \"After a change\" names " + name +
-                       ", which no CMakeLists.txt defines");
+      faults.push_back(
+          fmt::format("{}/README.md: \"After a change\" names {}, which no CMakeLists.txt defines",
+                      folder, name));
 }
 
 }  // namespace
 
 std::set<std::string> definedPrograms(const Files& files) {
   std::set<std::string> programs;
-  static const std::regex kDefinition(R"(glintmark_(?:test|bench)\((\w+))");
+  static const std::regex definition(R"(glintmark_(?:test|bench)\((\w+))");
   for (const auto& [path, text] : files) {
     if (!path.ends_with("CMakeLists.txt")) continue;
-    for (std::sregex_iterator it(text.begin(), text.end(), kDefinition), end; it != end; ++it)
+    for (std::sregex_iterator it(text.begin(), text.end(), definition), end; it != end; ++it)
       programs.insert((*it)[1]);
   }
   return programs;
@@ -133,13 +136,13 @@ std::vector<std::string> readmeFaults(const Files& files, const Order& order,
     }
     const std::string& text = readme->second;
     if (std::ranges::count(text, '\n') > kMostLines)
-      faults.push_back(path + ": more than " + std::to_string(kMostLines) + " lines");
+      faults.push_back(fmt::format("{}: more than {} lines", path, kMostLines));
     const std::string name = std::filesystem::path(folder).filename().string();
     if (!text.starts_with("# " + name + ":"))
-      faults.push_back(path + ": does not begin with \"# " + name + ": \"");
+      faults.push_back(fmt::format("{}: does not begin with \"# {}: \"", path, name));
     for (const std::string& quoted : quotedIn(text))
       if (isPath(quoted) && !exists(folder, quoted, files))
-        faults.push_back(path + ": there is no " + quoted);
+        faults.push_back(fmt::format("{}: there is no {}", path, quoted));
     if (folder.starts_with("host/")) addHostFaults(faults, folder, text, files, order, programs);
   }
   return faults;

@@ -76,7 +76,7 @@ TEST(Device, IsUsableAfterAMove) {
 // The loader reads OCL_ICD_VENDORS once per process, hence a process of its own.
 TEST(DeviceDeathTest, NoPlatformIsAnEmptyListAndASentenceThatNamesThePackage) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
-  const auto withoutPlatform = [] {
+  const auto without_platform = [] {
     setenv("OCL_ICD_VENDORS", "/nonexistent", 1);
     if (!listDevices().empty()) std::exit(10);
     try {
@@ -87,7 +87,7 @@ TEST(DeviceDeathTest, NoPlatformIsAnEmptyListAndASentenceThatNamesThePackage) {
     }
     std::exit(11);
   };
-  EXPECT_EXIT(withoutPlatform(), testing::ExitedWithCode(kExitNoDevice),
+  EXPECT_EXIT(without_platform(), testing::ExitedWithCode(kExitNoDevice),
               "no OpenCL device found; the package pocl-opencl-icd provides one");
 }
 

@@ -31,7 +31,7 @@ Extent extentOf(const Image& image, const DisplayColour& colour, int height) {
   return e;
 }
 
-constexpr ChartOptions kOptions{.columns = 2, .panel_width_px = 200, .panel_height_px = 120};
+const ChartOptions kOptions{.columns = 2, .panel_width_px = 200, .panel_height_px = 120};
 
 TEST(LineChart, ALineRunsFromItsFirstPointToItsLast) {
   const Image chart = lineChart({{"t", {{"s", kRed, {0, 1}, {0, 1}}}}}, kOptions);

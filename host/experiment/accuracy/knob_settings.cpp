@@ -31,11 +31,13 @@ KnobSettings::KnobSettings(std::string_view effect) {
 void KnobSettings::moveTo(std::vector<AccuracySetting>& all,
                           std::initializer_list<std::string_view> knobs) {
   for (const std::string_view knob : knobs) {
-    const auto rest = std::ranges::stable_partition(
-        settings_, [&](const AccuracySetting& one) { return knobOf(one.name) != knob; });
-    if (rest.empty()) throw Error(fmt::format("the table of switches has no knob {}", knob));
-    std::ranges::move(rest, std::back_inserter(all));
-    settings_.erase(rest.begin(), rest.end());
+    const auto rest =
+        std::stable_partition(settings_.begin(), settings_.end(),
+                              [&](const AccuracySetting& one) { return knobOf(one.name) != knob; });
+    if (rest == settings_.end())
+      throw Error(fmt::format("the table of switches has no knob {}", knob));
+    std::move(rest, settings_.end(), std::back_inserter(all));
+    settings_.erase(rest, settings_.end());
   }
 }
 

@@ -29,8 +29,8 @@ std::vector<std::string> energyCases() {
 
 void measure(BenchRun& run) {
   const std::string& table = msbrdfSpec().name;
-  const auto bind = [&run](std::vector<Record> (*measureCase)(BenchRun&, const std::string&)) {
-    return [&run, measureCase](const std::string& name) { return measureCase(run, name); };
+  const auto bind = [&run](std::vector<Record> (*measure_case)(BenchRun&, const std::string&)) {
+    return [&run, measure_case](const std::string& name) { return measure_case(run, name); };
   };
   run.measureCases(table, alphaCases(kSurfaceKind),
                    {"rays_per_s", "simulate_ms", "energy_balance", "order_6"},

@@ -46,8 +46,9 @@ void requireConsistent(const Image& image, const std::filesystem::path& path) {
 
 // Encodes in memory and writes the bytes ourselves: OpenImageIO does not report every failed write
 // of a PNG.
-void encodeFile(const std::string& format, const OIIO::ImageSpec& spec, OIIO::TypeDesc pixel_type,
-                const void* pixels, const std::filesystem::path& path) {
+void encodeFile(const std::string& format, const OIIO::ImageSpec& spec,
+                const OIIO::TypeDesc& pixel_type, const void* pixels,
+                const std::filesystem::path& path) {
   auto output = OIIO::ImageOutput::create(format);
   if (!output) {
     throw Error(
@@ -66,7 +67,7 @@ void encodeFile(const std::string& format, const OIIO::ImageSpec& spec, OIIO::Ty
 }  // namespace
 
 std::string requireImageExtension(const std::filesystem::path& path) {
-  const std::string extension = lowerExtension(path);
+  std::string extension = lowerExtension(path);
   if (extension != ".exr" && extension != ".png") {
     throw Error(fmt::format("cannot write '{}': the name must end in .exr or .png", path.string()));
   }

@@ -44,13 +44,13 @@ void drawSeries(Image& image, const Plot& plot, const ChartSeries& series) {
     throw Error(fmt::format("the series '{}' has {} abscissae and {} values", series.name,
                             series.x.size(), series.y.size()));
   std::vector<glm::dvec2> line;  // points that no gap parts
-  const auto drawPart = [&] {
+  const auto draw_part = [&] {
     if (line.size() > 1) drawPolyline(image, line, kLineWidth_px, series.colour, plot.clip());
     line.clear();
   };
   for (std::size_t i = 0; i < series.x.size(); ++i) {
     if (!plot.holds(series.x[i], series.y[i])) {
-      drawPart();
+      draw_part();
       continue;
     }
     const glm::dvec2 point = plot.point(series.x[i], series.y[i]);
@@ -59,7 +59,7 @@ void drawSeries(Image& image, const Plot& plot, const ChartSeries& series) {
     else if (point.y >= plot.top)
       drawDot(image, point, kDotRadius_px, series.colour, plot.clip());
   }
-  drawPart();
+  draw_part();
 }
 
 std::string tickLabel(double value) {
@@ -111,8 +111,8 @@ std::vector<std::vector<const ChartSeries*>> legendRows(const ChartPanel& panel,
   return rows;
 }
 
-void drawLegend(Image& image, int x0, int y,
-                const std::vector<std::vector<const ChartSeries*>>& rows) {
+void drawLineLegend(Image& image, int x0, int y,
+                    const std::vector<std::vector<const ChartSeries*>>& rows) {
   const ClipBox all = {0, 0, image.width, image.height};
   for (const auto& row : rows) {
     int x = x0;
@@ -179,7 +179,7 @@ Image lineChart(const std::vector<ChartPanel>& panels, const ChartOptions& optio
   drawText(image, (legend_left + width - kRight_px) / 2, panels_bottom + kText_px, options.x_label,
            fitted(kLegendStyle, options.x_label, width - legend_left - kRight_px),
            TextAlign::kCentre);
-  drawLegend(image, legend_left, panels_bottom + label_height + kLine_px, legend);
+  drawLineLegend(image, legend_left, panels_bottom + label_height + kLine_px, legend);
   return image;
 }
 
