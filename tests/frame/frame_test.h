@@ -1,18 +1,13 @@
 // A device and options that tests of frames share.
 #pragma once
-#include <stdlib.h>
-
 #include "host/frame/frame_renderer.h"
 #include "host/harness/small_scenes.h"
 
 namespace glintmark {
 
 inline Device& device() {
-  static Device* const shared = [] {
-    setenv("GLINTMARK_CACHE_DIR", GLINTMARK_BINARY_DIR "/test_cache/programs", 1);
-    setenv("POCL_CACHE_DIR", GLINTMARK_BINARY_DIR "/test_cache/pocl", 1);
-    return new Device;  // lives as long as the program: drivers dislike late teardown
-  }();
+  // Lives as long as the program: drivers dislike late teardown.
+  static auto* const shared = new Device;
   return *shared;
 }
 

@@ -158,6 +158,18 @@ TEST_F(ProgramCacheTest, OffWritesNothing) {
   EXPECT_FALSE(fs::exists("off"));
 }
 
+// Other things may still be kept.
+TEST_F(ProgramCacheTest, ProgramsAloneMayBeLeftOut) {
+  setenv("GLINTMARK_PROGRAM_CACHE", "off", 1);
+  build();
+  EXPECT_FALSE(build().fromDiskCache());
+  EXPECT_TRUE(entries().empty());
+  setenv("GLINTMARK_PROGRAM_CACHE", "on", 1);
+  build();
+  EXPECT_TRUE(build().fromDiskCache());
+  unsetenv("GLINTMARK_PROGRAM_CACHE");
+}
+
 TEST_F(ProgramCacheTest, XdgFolderIsTheDefault) {
   unsetenv("GLINTMARK_CACHE_DIR");
   const char* before = getenv("XDG_CACHE_HOME");
