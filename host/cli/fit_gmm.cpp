@@ -68,7 +68,7 @@ int choice(const char* option, const std::string& text, const std::vector<std::s
   return static_cast<int>(found - names.begin());
 }
 
-void check(FitGmmCommand& command) {
+void checkFitGmm(FitGmmCommand& command) {
   requireRange("--lobes", command.options.lobes, 1, kMaxLobes);
   requireRange("--iterations", command.options.max_iterations, 1, kMostIterations);
   requireRange("--passes", command.options.passes, 1, kMostPasses);
@@ -198,7 +198,7 @@ void printReport(const FitGmmCommand& command, const Fitted& fitted) {
 }
 
 // The mixtures and, below them, what the same texels get without neighbours.
-void writePicture(const FitGmmCommand& command, const Fitted& fitted) {
+void writeMixturePicture(const FitGmmCommand& command, const Fitted& fitted) {
   const int level = pictureLevel(fitted.mixtures, kPictureWidth_px);
   const int side =
       std::max(fitted.mixtures.moments.levelWidth(level) * fitted.mixtures.lobes,
@@ -215,13 +215,13 @@ void writePicture(const FitGmmCommand& command, const Fitted& fitted) {
 }
 
 int runFitGmm(const CommonOptions& common, FitGmmCommand& command) {
-  check(command);
+  checkFitGmm(command);
   command.options.threads = common.threads;
   NormalMap map = loadMap(common, command);
   const Fitted fitted = command.check.empty() ? fitMap(common, command, std::move(map))
                                               : readFitted(command, std::move(map));
   if (!command.output.empty()) writeFile(command.output, serializeMixtures(fitted.mixtures));
-  if (!command.picture.empty()) writePicture(command, fitted);
+  if (!command.picture.empty()) writeMixturePicture(command, fitted);
   printReport(command, fitted);
   return kExitDone;
 }

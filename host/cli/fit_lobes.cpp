@@ -185,7 +185,7 @@ int LobeFitRun::run() {
   return kExitDone;
 }
 
-void check(const FitLobesOptions& options) {
+void checkFitLobes(const FitLobesOptions& options) {
   for (const auto& [name, rays] :
        {std::pair("--rays", options.rays), std::pair("--mirror-rays", options.mirror_rays)})
     if (!(rays >= kLeastRays && rays <= kMostRays))
@@ -197,7 +197,7 @@ void check(const FitLobesOptions& options) {
 }
 
 int runFitLobes(const CommandLine& line, const FitLobesOptions& options) {
-  check(options);
+  checkFitLobes(options);
   return LobeFitRun(line, options).run();
 }
 

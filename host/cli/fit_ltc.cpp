@@ -37,7 +37,7 @@ reference::Ndf parseNdf(const std::string& name) {
   throw Error(fmt::format("unknown distribution '{}'; distributions are ggx and beckmann", name));
 }
 
-void check(const FitLtcCommand& command) {
+void checkFitLtc(const FitLtcCommand& command) {
   parseNdf(command.ndf);
   if (!command.output.empty()) requireWritableFile(command.output);
   if (!command.picture.empty()) requireWritablePicture(command.picture);
@@ -103,7 +103,7 @@ void printComparison(const LtcErrors& ours, const LtcErrors& theirs) {
              worse, ours.values.size(), most);
 }
 
-void writePicture(const std::vector<MeasuredTable>& tables, const std::string& file) {
+void writeErrorPicture(const std::vector<MeasuredTable>& tables, const std::string& file) {
   std::vector<MatrixPanel> panels;
   for (const MeasuredTable& table : tables) panels.push_back({table.name, table.nodes.values});
   const LtcErrors& first = tables.front().nodes;
@@ -122,7 +122,7 @@ void writePicture(const std::vector<MeasuredTable>& tables, const std::string& f
 }
 
 int runFitLtc(const CommonOptions& common, const FitLtcCommand& command) {
-  check(command);
+  checkFitLtc(command);
   std::vector<MeasuredTable> tables;
   LtcTable published;
   if (!command.compare.empty()) published = readPublishedLtc(command.compare);
@@ -137,7 +137,7 @@ int runFitLtc(const CommonOptions& common, const FitLtcCommand& command) {
   if (!command.compare.empty()) tables.push_back(measure("published", published));
   printSummary(tables);
   if (tables.size() > 1) printComparison(tables[0].nodes, tables[1].nodes);
-  if (!command.picture.empty()) writePicture(tables, command.picture);
+  if (!command.picture.empty()) writeErrorPicture(tables, command.picture);
   return kExitDone;
 }
 

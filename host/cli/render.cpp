@@ -36,8 +36,8 @@ void printTimes(const std::string& what, const FrameTimes& raster, const FrameTi
 
 // PNG gets the scene's post effects. EXR holds radiance for measuring, with the star only on
 // demand.
-void writePicture(Image radiance, const RenderOptions& options, const PostEffects& post,
-                  const std::string& extension) {
+void writeRendered(Image radiance, const RenderOptions& options, const PostEffects& post,
+                   const std::string& extension) {
   const bool is_png = extension == ".png";
   const double exposure = options.exposure.value_or(post.exposure);
   if (options.star_chosen ? options.star : is_png && post.star) {
@@ -86,7 +86,7 @@ int runRender(const CommandLine& line, const RenderOptions& options) {
     radiance = renderer.readRadiance(&read);
   }
   if (!options.trace.empty()) writeTrace(options.trace, describeRun(line, device));
-  writePicture(std::move(radiance), options, scene.post, extension);
+  writeRendered(std::move(radiance), options, scene.post, extension);
   if (!options.aov_output.empty()) writeExr(planesToImage(renderer.planes()), options.aov_output);
   printTimes(fmt::format("{}/{} {}x{}", scene.name, view.name, size.width_px, size.height_px),
              prepared, shaded, read.readback_ns);

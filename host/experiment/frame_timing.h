@@ -36,6 +36,8 @@ struct TurnTimes {
   Samples differences() const;  // first - second [ms]
 };
 TurnTimes shadeInTurn(FrameRenderer& first, FrameRenderer& second, int reps);
+/// Enough against a frame of one lane, which takes some ten times as long.
+inline constexpr int kOneLaneReps = 5;
 /// Of any number of frames, by frame.
 std::vector<Samples> shadeInTurn(std::span<const std::unique_ptr<FrameRenderer>> renderers,
                                  int reps);

@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/core/angles.h"
+
 namespace glintmark {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kCells = LobeData::kCosines * LobeData::kAzimuths;
 
 template <typename T>

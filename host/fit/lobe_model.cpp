@@ -2,12 +2,11 @@
 
 #include <algorithm>
 
+#include "host/core/angles.h"
 #include "host/reference/microfacet.h"
 
 namespace glintmark {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 double cubic(const std::array<double, 4>& c, double x) {
   return c[0] + x * (c[1] + x * (c[2] + x * c[3]));

@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
-#include <numbers>
 
+#include "host/core/angles.h"
 #include "host/frame/frame_renderer.h"
 #include "host/reference/microfacet.h"
 
 namespace glintmark {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kSlopes = 128, kAzimuths = 32;  // azimuths over a whole turn
 constexpr int kLights = kSlopes * kAzimuths;
 constexpr std::size_t kLightsPerFrame = 1024;  // whose description fits constant memory of 64 KiB

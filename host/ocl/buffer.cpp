@@ -49,7 +49,7 @@ void checkRange(const Buffer::Impl& impl, std::size_t bytes, std::size_t offset,
                             bytes, offset, impl.what, impl.bytes));
 }
 
-Buffer::Impl& nonEmpty(Buffer::Impl* impl) {
+Buffer::Impl& allocated(Buffer::Impl* impl) {
   if (!impl) throw Error("an empty device buffer was used; it must be allocated first");
   return *impl;
 }
@@ -97,7 +97,7 @@ Buffer Buffer::wrapHost(Device& device, void* data, std::size_t bytes, BufferPur
 // by OpenCL 1.2 Sect. 5.2.2 and costs a device that uses the memory in place nothing, so wrapped
 // buffers take the same path as all others.
 double Buffer::write(const void* source, std::size_t bytes, std::size_t offset) {
-  Impl& impl = nonEmpty(impl_.get());
+  Impl& impl = allocated(impl_.get());
   checkRange(impl, bytes, offset, "write");
   if (bytes == 0) return 0;
   return timed("writing " + impl.what, [&](cl::Event* event) {
@@ -106,7 +106,7 @@ double Buffer::write(const void* source, std::size_t bytes, std::size_t offset) 
 }
 
 double Buffer::read(void* target, std::size_t bytes, std::size_t offset) const {
-  Impl& impl = nonEmpty(impl_.get());
+  Impl& impl = allocated(impl_.get());
   checkRange(impl, bytes, offset, "read");
   if (bytes == 0) return 0;
   return timed("reading " + impl.what, [&](cl::Event* event) {
@@ -115,7 +115,7 @@ double Buffer::read(void* target, std::size_t bytes, std::size_t offset) const {
 }
 
 void Buffer::fillZero() {
-  Impl& impl = nonEmpty(impl_.get());
+  Impl& impl = allocated(impl_.get());
   timed("clearing " + impl.what, [&](cl::Event* event) {
     impl.queue.enqueueFillBuffer(impl.buffer, cl_uchar{0}, 0, impl.bytes, nullptr, event);
     impl.queue.finish();

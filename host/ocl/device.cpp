@@ -39,7 +39,7 @@ int lanesFor(bool is_cpu, unsigned preferred_width, unsigned native_width) {
   return width >= 16 ? 16 : width >= 8 ? 8 : width >= 4 ? 4 : 1;
 }
 
-DeviceInfo describe(const cl::Platform& platform, const cl::Device& device, int index) {
+DeviceInfo infoOf(const cl::Platform& platform, const cl::Device& device, int index) {
   const cl_device_type type = device.getInfo<CL_DEVICE_TYPE>();
   DeviceInfo info;
   info.index = index;
@@ -88,7 +88,7 @@ std::vector<Found> findDevices() {
       platform.getDevices(CL_DEVICE_TYPE_ALL, &devices);
       for (const cl::Device& device : devices)
         found.push_back(
-            {platform, device, describe(platform, device, static_cast<int>(found.size()))});
+            {platform, device, infoOf(platform, device, static_cast<int>(found.size()))});
     } catch (const cl::Error&) {
       continue;
     }

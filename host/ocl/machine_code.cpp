@@ -65,14 +65,14 @@ bool names512(const ZydisDecodedOperand& operand) {
 // What compilers fill gaps with; two-byte ones exchange ax with itself.
 bool isPadding(const DecodedInstruction& decoded) {
   const ZydisMnemonic mnemonic = decoded.instruction.mnemonic;
-  const auto isAx = [](const ZydisDecodedOperand& operand) {
+  const auto is_ax = [](const ZydisDecodedOperand& operand) {
     return operand.type == ZYDIS_OPERAND_TYPE_REGISTER && operand.reg.value == ZYDIS_REGISTER_AX;
   };
   return mnemonic == ZYDIS_MNEMONIC_NOP || mnemonic == ZYDIS_MNEMONIC_INT3 ||
-         (mnemonic == ZYDIS_MNEMONIC_XCHG && std::ranges::all_of(decoded.written(), isAx));
+         (mnemonic == ZYDIS_MNEMONIC_XCHG && std::ranges::all_of(decoded.written(), is_ax));
 }
 
-Instruction describe(const DecodedInstruction& decoded, std::uint64_t address) {
+Instruction instructionOf(const DecodedInstruction& decoded, std::uint64_t address) {
   const ZydisMnemonic mnemonic = decoded.instruction.mnemonic;
   const ZydisInstructionCategory category = decoded.instruction.meta.category;
   Instruction instruction;
@@ -128,7 +128,7 @@ std::optional<std::vector<Instruction>> disassemble(const FunctionCode& code) {
                                              code.bytes.size() - at, &decoded.instruction,
                                              decoded.operands)))
       return std::nullopt;
-    if (!isPadding(decoded)) instructions.push_back(describe(decoded, code.address + at));
+    if (!isPadding(decoded)) instructions.push_back(instructionOf(decoded, code.address + at));
   }
   return instructions;
 }

@@ -5,7 +5,7 @@
 namespace glintmark {
 namespace {
 
-const Program::Impl& nonEmpty(const std::shared_ptr<Program::Impl>& impl) {
+const Program::Impl& fromCache(const std::shared_ptr<Program::Impl>& impl) {
   if (!impl) throw Error("an empty program was used; it must come from a program cache");
   return *impl;
 }
@@ -30,7 +30,7 @@ std::vector<std::string> parameterNames(const cl::Kernel& kernel) {
 }  // namespace
 
 Kernel Program::kernel(const std::string& name) const {
-  BuiltProgram& built = *nonEmpty(impl_).built;
+  BuiltProgram& built = *fromCache(impl_).built;
   std::shared_ptr<Kernel::Impl>& kernel = built.kernels[name];
   if (kernel) return Kernel(kernel);
   try {
@@ -51,19 +51,19 @@ Kernel Program::kernel(const std::string& name) const {
 }
 
 double Program::buildNs() const {
-  return nonEmpty(impl_).build_ns;
+  return fromCache(impl_).build_ns;
 }
 
 bool Program::fromDiskCache() const {
-  return nonEmpty(impl_).from_disk_cache;
+  return fromCache(impl_).from_disk_cache;
 }
 
 const std::string& Program::options() const {
-  return nonEmpty(impl_).built->options;
+  return fromCache(impl_).built->options;
 }
 
 std::string Program::binary() const {
-  return programBinary(nonEmpty(impl_).built->program);
+  return programBinary(fromCache(impl_).built->program);
 }
 
 }  // namespace glintmark

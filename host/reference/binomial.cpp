@@ -12,7 +12,7 @@ namespace policies = boost::math::policies;
 using RoundUp = policies::policy<policies::discrete_quantile<policies::integer_round_up>>;
 using Binomial = boost::math::binomial_distribution<double, RoundUp>;
 
-constexpr double kMostExactMean = 5;  // method zk16
+constexpr double kMostExactMeanZk16 = 5;  // method zk16
 constexpr std::int64_t kExactTerms = 16;
 
 // [ZK16] Sect. 4.3, the tail after i = kExactTerms - 1, for u <= P(K > i). There U runs with k and
@@ -58,7 +58,7 @@ std::int64_t drawExact(double u, std::int64_t count, double p) {
 std::int64_t drawZk16(double u, std::int64_t count, double p) {
   if (p > 0.5) return count - drawZk16(u, count, 1.0 - p);
   if (count <= 0 || p <= 0) return 0;
-  if (static_cast<double>(count) * p > kMostExactMean) return drawNormal(u, count, p);
+  if (static_cast<double>(count) * p > kMostExactMeanZk16) return drawNormal(u, count, p);
   if (count > kExactTerms - 1) {
     const Binomial distribution(static_cast<double>(count), p);
     const double upper = cdf(complement(distribution, static_cast<double>(kExactTerms - 1)));

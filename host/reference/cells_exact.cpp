@@ -46,14 +46,10 @@ void cellRange(const Polygon& polygon, int axis, double& first, double& last) {
   last = std::max(first, std::ceil(high) - 1.0);
 }
 
-std::int32_t wrap(std::int64_t index) {
-  return static_cast<std::int32_t>(static_cast<std::uint64_t>(index));
-}
-
-constexpr double kLeastArea = 1e-6;       // of a cell, for a cell to count as touched
-constexpr double kMostColumns = 4096;     // per grid
-constexpr double kMostAspect = 4096;      // slimmer footprints are widened
-constexpr double kLeastExtent = 0x1p-28;  // uv; shorter edge vectors have no direction
+constexpr double kLeastArea = 1e-6;        // of a cell, for a cell to count as touched
+constexpr double kMostColumns = 4096;      // per grid
+constexpr double kMostAspect = 4096;       // slimmer footprints are widened
+constexpr double kLeastEdge_uv = 0x1p-28;  // uv; shorter edge vectors have no direction
 
 double longestEntry(const glm::dvec2& d) {
   return std::max(std::abs(d.x), std::abs(d.y));
@@ -62,16 +58,16 @@ double longestEntry(const glm::dvec2& d) {
 // A footprint of no area, or hardly any, becomes a thin box along its longer edge.
 PixelFootprint widened(const PixelFootprint& footprint) {
   const glm::dvec2 x = footprint.duv_dx, y = footprint.duv_dy;
-  const double extent = std::max({longestEntry(x), longestEntry(y), kLeastExtent});
+  const double extent = std::max({longestEntry(x), longestEntry(y), kLeastEdge_uv});
   if (std::abs(x.x * y.y - x.y * y.x) >= extent * extent / kMostAspect) return footprint;
   PixelFootprint box = footprint;
   const glm::dvec2 longer = glm::dot(x, x) >= glm::dot(y, y) ? x : y;
-  box.duv_dx = longestEntry(longer) < kLeastExtent ? glm::dvec2(extent, 0) : longer;
+  box.duv_dx = longestEntry(longer) < kLeastEdge_uv ? glm::dvec2(extent, 0) : longer;
   box.duv_dy = glm::normalize(glm::dvec2(-box.duv_dx.y, box.duv_dx.x)) * cellSizeExact(footprint);
   return box;
 }
 
-void visitGrid(const GridFootprint& grid, GridVisit& visit) {
+void visitGridExact(const GridFootprint& grid, GridVisit& visit) {
   const glm::dvec2 x = 0.5 * grid.edge_x, y = 0.5 * grid.edge_y, c = grid.centre;
   const Polygon outline = {c - x - y, c + x - y, c + x + y, c - x + y};
   const glm::dvec2 box = glm::max(glm::abs(grid.edge_x), glm::abs(grid.edge_y));
@@ -92,7 +88,7 @@ void visitGrid(const GridFootprint& grid, GridVisit& visit) {
       if (area <= kLeastArea) continue;
       const auto u = static_cast<std::int64_t>(along == 0 ? column_index : i);
       const auto v = static_cast<std::int64_t>(along == 0 ? i : column_index);
-      visit.cells.push_back({wrap(grid.base_u + u), wrap(grid.base_v + v), area});
+      visit.cells.push_back({wrapped(grid.base_u + u), wrapped(grid.base_v + v), area});
     }
   }
 }
@@ -102,7 +98,7 @@ void visitGrid(const GridFootprint& grid, GridVisit& visit) {
 std::vector<GridVisit> visitExact(const PixelFootprint& footprint, const glm::dvec2& stretch) {
   std::vector<GridVisit> grids = gridsFor(cellSizeExact(footprint));
   const PixelFootprint covered = widened(footprint);
-  for (GridVisit& visit : grids) visitGrid(inGrid(covered, stretch, visit.level), visit);
+  for (GridVisit& visit : grids) visitGridExact(inGrid(covered, stretch, visit.level), visit);
   return grids;
 }
 

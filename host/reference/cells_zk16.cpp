@@ -31,11 +31,7 @@ LongFirst longFirst(const GridFootprint& grid) {
   return f;
 }
 
-std::int32_t wrap(std::int64_t index) {
-  return static_cast<std::int32_t>(static_cast<std::uint64_t>(index));
-}
-
-void visitGrid(const GridFootprint& grid, int ka, GridVisit& visit) {
+void visitGridZk16(const GridFootprint& grid, int ka, GridVisit& visit) {
   const LongFirst f = longFirst(grid);
   const double r = std::max(0.5 * (f.extent - 1.0), 0.0);
   // Cell i has its centre at i + 1/2; those strictly inside (c - r - 1, c + r + 1) take part.
@@ -64,7 +60,7 @@ void visitGrid(const GridFootprint& grid, int ka, GridVisit& visit) {
       std::int64_t v = static_cast<std::int64_t>(below) + side;
       if (f.swapped) std::swap(u, v);
       const double share = side == 1 ? across - below : 1.0 - (across - below);
-      visit.cells.push_back({wrap(grid.base_u + u), wrap(grid.base_v + v), along * share});
+      visit.cells.push_back({wrapped(grid.base_u + u), wrapped(grid.base_v + v), along * share});
     }
   }
 }
@@ -74,7 +70,7 @@ void visitGrid(const GridFootprint& grid, int ka, GridVisit& visit) {
 std::vector<GridVisit> visitZk16(const PixelFootprint& footprint, const glm::dvec2& stretch,
                                  int ka) {
   std::vector<GridVisit> grids = gridsFor(cellSizeZk16(footprint, ka));
-  for (GridVisit& visit : grids) visitGrid(inGrid(footprint, stretch, visit.level), ka, visit);
+  for (GridVisit& visit : grids) visitGridZk16(inGrid(footprint, stretch, visit.level), ka, visit);
   return grids;
 }
 

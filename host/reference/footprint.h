@@ -27,6 +27,11 @@ struct Cell {
   double weight = 0;
 };
 
+/// An index modulo 2^32.
+inline std::int32_t wrapped(std::int64_t index) {
+  return static_cast<std::int32_t>(static_cast<std::uint64_t>(index));
+}
+
 /// One of a pixel's two grids.
 struct GridVisit {
   int level = 0;          // cells are 2^level wide

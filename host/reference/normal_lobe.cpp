@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "host/core/angles.h"
 
 namespace glintmark::reference {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // Smith's Lambda of Beckmann, exact.
 double smithLambda(double cosine, double alpha) {

@@ -4,15 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "host/core/angles.h"
 #include "host/core/error.h"
 #include "host/core/float4.h"
 
 namespace glintmark {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kSkyWidth_px = 512;
 constexpr int kSkyHeight_px = 256;
 

@@ -2,8 +2,8 @@
 // galleries, cornices, and banners between the columns. x is along the court, lengths are metres.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "host/core/angles.h"
 #include "host/scene/generators.h"
 #include "host/scene/mesh_builder.h"
 #include "host/scene/noise.h"
@@ -11,10 +11,9 @@
 namespace glintmark {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kBays = 8;
 constexpr double kBayLength = 3.0;
-constexpr double kHalfLength = kBays * kBayLength / 2;
+constexpr double kHalfArcade = kBays * kBayLength / 2;
 constexpr double kCourtHalfWidth = 4.0;  // to the arcade's front
 constexpr double kWallThickness = 0.6;
 constexpr double kAisleBack = 7.2;
@@ -33,7 +32,7 @@ class ArcadeBuilder {
   explicit ArcadeBuilder(double detail) : detail_(detail) {}
 
   PartMesh build() {
-    addRectangle("floor", {-kHalfLength, 0, kAisleBack}, {2 * kHalfLength, 0, 0},
+    addRectangle("floor", {-kHalfArcade, 0, kAisleBack}, {2 * kHalfArcade, 0, 0},
                  {0, 0, -2 * kAisleBack}, 96, 56);
     for (const double side : {1.0, -1.0}) {
       addLongSide(side);
@@ -63,35 +62,35 @@ class ArcadeBuilder {
   void addLongSide(double side) {
     for (int storey = 0; storey < 2; ++storey) {
       const double base = storey * kStoreyHeight;
-      for (int i = 0; i <= kBays; ++i) addColumn(side, base, -kHalfLength + i * kBayLength);
-      for (int i = 0; i < kBays; ++i) addArch(side, base, -kHalfLength + (i + 0.5) * kBayLength);
+      for (int i = 0; i <= kBays; ++i) addColumn(side, base, -kHalfArcade + i * kBayLength);
+      for (int i = 0; i < kBays; ++i) addArch(side, base, -kHalfArcade + (i + 0.5) * kBayLength);
       addCornice(side, base + kStoreyHeight);
     }
-    const glm::dvec3 along(2 * kHalfLength, 0, 0);
+    const glm::dvec3 along(2 * kHalfArcade, 0, 0);
     const double aisle = kAisleBack - kCourtHalfWidth;
-    addRectangle("wall", {kHalfLength, 0, kAisleBack}, -along, {0, kParapetTop, 0}, 96, 44, side);
-    addRectangle("floor", {-kHalfLength, kStoreyHeight, kAisleBack}, along, {0, 0, -aisle}, 96, 12,
+    addRectangle("wall", {kHalfArcade, 0, kAisleBack}, -along, {0, kParapetTop, 0}, 96, 44, side);
+    addRectangle("floor", {-kHalfArcade, kStoreyHeight, kAisleBack}, along, {0, 0, -aisle}, 96, 12,
                  side);
     for (int storey = 1; storey <= 2; ++storey) {
-      addRectangle("wall", {-kHalfLength, storey * kStoreyHeight - 0.05, kCourtHalfWidth}, along,
+      addRectangle("wall", {-kHalfArcade, storey * kStoreyHeight - 0.05, kCourtHalfWidth}, along,
                    {0, 0, aisle}, 96, 12, side);
     }
-    addRectangle("wall", {kHalfLength, 2 * kStoreyHeight, kCourtHalfWidth}, -along,
+    addRectangle("wall", {kHalfArcade, 2 * kStoreyHeight, kCourtHalfWidth}, -along,
                  {0, kParapetTop - 2 * kStoreyHeight, 0}, 96, 4, side);
     constexpr const char* kFabrics[] = {"fabric_red", "fabric_green", "fabric_blue"};
     for (int i = 0; i < kBays; i += 2) {
       addBanner(kFabrics[(i / 2 + (side > 0 ? 0 : 1)) % 3], side,
-                -kHalfLength + (i + (side > 0 ? 0.5 : 1.5)) * kBayLength, 60 + i);
+                -kHalfArcade + (i + (side > 0 ? 0.5 : 1.5)) * kBayLength, 60 + i);
     }
   }
 
   void addEndWall(double side) {
-    addRectangle("wall", {-kHalfLength, 0, kAisleBack}, {0, 0, -2 * kAisleBack},
+    addRectangle("wall", {-kHalfArcade, 0, kAisleBack}, {0, 0, -2 * kAisleBack},
                  {0, kParapetTop, 0}, 48, 36, side);
     add("wall", 48, 12, side, [](double s, double t) {
       // A half-round moulding across the wall, level with the gallery.
       const double a = kPi * (t - 0.5);
-      return glm::dvec3(-kHalfLength + 0.18 * std::cos(a), kStoreyHeight + 0.18 * std::sin(a),
+      return glm::dvec3(-kHalfArcade + 0.18 * std::cos(a), kStoreyHeight + 0.18 * std::sin(a),
                         kCourtHalfWidth * (1 - 2 * s));
     });
   }
@@ -151,7 +150,7 @@ class ArcadeBuilder {
       const double a = 0.5 * kPi * std::min(1.0, 2 * t);
       const double up = t < 0.5 ? 0.16 * std::sin(a) : 0.16 + 0.10 * (2 * t - 1);
       const double out = t < 0.5 ? 0.22 * (1 - std::cos(a)) : 0.22 * (1 - std::pow(2 * t - 1, 4));
-      return glm::dvec3(kHalfLength * (1 - 2 * s), y - 0.13 + up, kCourtHalfWidth - out);
+      return glm::dvec3(kHalfArcade * (1 - 2 * s), y - 0.13 + up, kCourtHalfWidth - out);
     });
   }
 

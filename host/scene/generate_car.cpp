@@ -2,16 +2,15 @@
 // wheels, bumpers and lamps on a studio floor. x is forwards, lengths are metres.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "host/core/angles.h"
 #include "host/scene/generators.h"
 #include "host/scene/mesh_builder.h"
 
 namespace glintmark {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kHalfLength = 2.45;
+constexpr double kHalfCar = 2.45;
 constexpr double kAxle = 1.48;  // wheels stand at x = +-kAxle
 constexpr double kWheelRadius = 0.34;
 constexpr double kArchHalfWidth = 0.55;
@@ -38,7 +37,7 @@ double closing(double x, double half_length, double power) {
 
 /// x along the body, denser where nose and tail bend.
 double bodyX(double s) {
-  return kHalfLength * std::sin(0.5 * kPi * (2 * s - 1));
+  return kHalfCar * std::sin(0.5 * kPi * (2 * s - 1));
 }
 
 struct BodySection {
@@ -47,11 +46,11 @@ struct BodySection {
 
 BodySection bodySection(double x) {
   constexpr double kMiddle = 0.56, kSill = 0.24;
-  const double close = closing(x, kHalfLength, 14);
+  const double close = closing(x, kHalfCar, 14);
   const double hood = glm::smoothstep(0.7, 2.4, x), boot = glm::smoothstep(1.0, 2.4, -x);
   const double top = 0.96 - 0.11 * hood - 0.12 * boot;
   const double wheel_bulge = 0.05 * (bell(x - kAxle, 0.6) + bell(x + kAxle, 0.65));
-  const double plan = 0.80 + 0.20 * closing(x, kHalfLength * 1.02, 5);
+  const double plan = 0.80 + 0.20 * closing(x, kHalfCar * 1.02, 5);
   return {(0.86 + wheel_bulge) * plan, kMiddle - (kMiddle - kSill) * close,
           kMiddle + (top - kMiddle) * close};
 }
@@ -189,7 +188,7 @@ void addBumper(MeshBuilder& builder, double end) {
       [end](double s, double t) {
         // A bent tube that follows the nose; its ends turn back along the flanks.
         const double a = 1.5 * (2 * s - 1);
-        const glm::dvec3 spine(kHalfLength - 0.28 + 0.36 * std::pow(std::cos(a), 0.45), 0.46,
+        const glm::dvec3 spine(kHalfCar - 0.28 + 0.36 * std::pow(std::cos(a), 0.45), 0.46,
                                0.90 * std::sin(a));
         const glm::dvec3 outwards = glm::normalize(glm::dvec3(std::cos(a) + 0.05, 0, std::sin(a)));
         const glm::dvec2 ring = superellipse(2 * kPi * t, 2.6);

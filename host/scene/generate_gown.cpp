@@ -2,8 +2,8 @@
 // neck.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "host/core/angles.h"
 #include "host/scene/generators.h"
 #include "host/scene/mesh_builder.h"
 #include "host/scene/noise.h"
@@ -11,7 +11,6 @@
 namespace glintmark {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kWaistHeight = 1.02;
 constexpr double kTopHeight = 1.40;
 constexpr double kHemRadius = 0.80;

@@ -1,8 +1,8 @@
 // Plane, terrain, wavy sheet, disc and torus knot.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "host/core/angles.h"
 #include "host/scene/generators.h"
 #include "host/scene/mesh_builder.h"
 #include "host/scene/noise.h"
@@ -10,7 +10,6 @@
 namespace glintmark {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kMaxGrid = 4096;
 
 PartMesh onePatch(const std::string& part, int columns, int rows, const Surface& surface,

@@ -50,7 +50,7 @@ Finding hemisphereAlbedo(const CheckContext& context) {
   return finding;
 }
 
-Finding sameBits(const CheckContext& context) {
+Finding samePoints(const CheckContext& context) {
   const AreaLight light = specularQuad();
   const std::vector<SpecularCase> cases = specularCases(500, light, 1e-3);
   const auto one = shadeSpecular(context.bench, light, cases, 1),
@@ -160,7 +160,7 @@ std::vector<Check> areaLightChecks() {
       {"area_light/kernel_is_the_lobe", "absolute error", kernelIsTheLobe},
       {"area_light/hemisphere_albedo", "absolute error", hemisphereAlbedo},
       {"area_light/mean_normal_0_to_1", "error of alpha", meanNormals},
-      {"area_light/same_bits", "points that differ from one lane's", sameBits}};
+      {"area_light/same_bits", "points that differ from one lane's", samePoints}};
   for (const HardLight& light : hardLights())
     checks.push_back({std::string("hard_light/") + light.name, "most that is reflected",
                       [&light](const CheckContext& context) { return hardLight(context, light); }});

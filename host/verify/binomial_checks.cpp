@@ -82,7 +82,7 @@ Finding quantiles(const CheckContext& context, GlintMethod method) {
   return finding;
 }
 
-Finding extremes(const CheckContext& context, GlintMethod method) {
+Finding extremeDraws(const CheckContext& context, GlintMethod method) {
   std::vector<float> u, n, p;
   for (const float a : {0x1p-33f, 1e-9f, 1e-4f, 0.5f, 0.9999999f, 1.0f})
     for (const float b : {0.f, 1.f, 2.f, 17.f, 1e4f, 1e9f, 0x1p30f})
@@ -125,7 +125,7 @@ Finding deepTail(const CheckContext& context, GlintMethod method) {
   return finding;
 }
 
-Finding sameBits(const CheckContext& context, GlintMethod method) {
+Finding sameDraws(const CheckContext& context, GlintMethod method) {
   std::mt19937 random(12);
   std::vector<float> u, n, p;
   for (const BinomialCase& c : binomialGrid())
@@ -158,9 +158,9 @@ std::vector<Check> binomialChecks() {
     };
     add("moments", "standard errors of the mean", moments);
     add("quantile", "share of sums that differ from Boost.Math", quantiles);
-    add("extremes", "draws out of range", extremes);
+    add("extremes", "draws out of range", extremeDraws);
     add("deep_tail", "draws beyond the least uniform's", deepTail);
-    add("same_bits", "draws that differ from one lane's", sameBits);
+    add("same_bits", "draws that differ from one lane's", sameDraws);
   }
   return checks;
 }

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <random>
 
+#include "host/core/angles.h"
 #include "host/frame/effect/lights.h"
 #include "host/harness/pixel_harness.h"
 #include "host/harness/tolerances.h"
@@ -16,8 +16,7 @@
 namespace glintmark {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
-constexpr int kSamples = 8000;
+constexpr int kConeSamples = 8000;
 constexpr double kViews_deg[] = {0.1, 0.5, 1, 3, 10, 30, 60, 90};  // above the surface
 constexpr glm::dvec2 kRoughness[] = {{0.01, 0.01}, {0.03, 0.03}, {0.1, 0.1},  {0.3, 0.3},
                                      {0.5, 0.15},  {0.6, 0.6},   {0.05, 0.5}, {1, 1}};
@@ -38,8 +37,8 @@ struct ProbedCone {
 
 // Lobes under one light and material, for many directions of both light and view. Directions are
 // rounded to single precision, as the kernel sees them.
-std::vector<ProbedCone> probe(const CheckContext& context, std::vector<ConeCase>& cases,
-                              const MaterialParams& material, double half_rad, bool groove) {
+std::vector<ProbedCone> probeCones(const CheckContext& context, std::vector<ConeCase>& cases,
+                                   const MaterialParams& material, double half_rad, bool groove) {
   const std::size_t n = paddedCount(cases.size());
   std::vector<float> in(6 * n), out(5 * n);
   for (std::size_t i = 0; i < n; ++i) {
@@ -72,7 +71,7 @@ std::vector<ProbedCone> probe(const CheckContext& context, std::vector<ConeCase>
 }
 
 // Every other light mirrors a slope of the lobe into the eye, the rest stand anywhere.
-std::vector<ConeCase> randomCases(const glm::dvec2& alpha, double half_rad, unsigned seed) {
+std::vector<ConeCase> randomCones(const glm::dvec2& alpha, double half_rad, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> turn(0, 2 * std::numbers::pi), unit(0, 1);
   std::normal_distribution<double> normal(0, 0.8);
@@ -98,8 +97,8 @@ double brightest(const ConeCase& c, double half_rad, const glm::dvec2& alpha) {
   for (const double higher_deg : {0.0, 1.0, 3.0, 10.0, 20.0}) {
     const double angle = std::min(elevation + higher_deg * kDegree, 0.5 * std::numbers::pi);
     const reference::Cone light = {raised(angle, azimuth), half_rad};
-    most = std::max(most,
-                    reference::coneRadiance(light, c.view, alpha, glm::dvec3(1), kSamples / 10).x);
+    most = std::max(
+        most, reference::coneRadiance(light, c.view, alpha, glm::dvec3(1), kConeSamples / 10).x);
   }
   return most;
 }
@@ -122,12 +121,12 @@ Finding lobe(const CheckContext& context, ConeKind kind) {
   const double power = 2 / (1 + std::cos(half_rad));
   unsigned seed = 0;
   for (const glm::dvec2& alpha : kRoughness) {
-    std::vector<ConeCase> cases = randomCases(alpha, half_rad, ++seed);
-    const auto probed = probe(context, cases, materialOf(alpha, 0.3), half_rad, kind.groove);
+    std::vector<ConeCase> cases = randomCones(alpha, half_rad, ++seed);
+    const auto probed = probeCones(context, cases, materialOf(alpha, 0.3), half_rad, kind.groove);
     for (std::size_t i = 0; i < cases.size(); ++i) {
       const ConeCase& c = cases[i];
       const double want =
-          reference::coneRadiance({c.axis, half_rad}, c.view, alpha, glm::dvec3(1), kSamples).x;
+          reference::coneRadiance({c.axis, half_rad}, c.view, alpha, glm::dvec3(1), kConeSamples).x;
       const double most = std::max(brightest(c, half_rad, alpha), want);
       finding.add(std::abs(probed[i].specular * power - want) / std::max(most, 1e-30));
     }
@@ -147,8 +146,9 @@ Finding probability(const CheckContext& context, ConeKind kind) {
   for (const glm::dvec2& alpha : kRoughness)
     for (const double micro : {0.15, 0.5, 0.9}) {
       if (micro * std::min(alpha.x, alpha.y) < 0.01) continue;
-      std::vector<ConeCase> cases = randomCases(alpha, half_rad, ++seed);
-      const auto probed = probe(context, cases, materialOf(alpha, micro), half_rad, kind.groove);
+      std::vector<ConeCase> cases = randomCones(alpha, half_rad, ++seed);
+      const auto probed =
+          probeCones(context, cases, materialOf(alpha, micro), half_rad, kind.groove);
       for (std::size_t i = 0; i < cases.size(); ++i) {
         const ConeCase& c = cases[i];
         // The horizon cuts every hemisphere of light but that of the zenith.
@@ -157,7 +157,7 @@ Finding probability(const CheckContext& context, ConeKind kind) {
         const glm::dvec3 sum = c.axis + c.view;
         if (kind.groove && (!whole || std::abs(sum.x) > 3 * alpha.x * sum.z)) continue;
         const double want = reference::coneProbability({c.axis, half_rad}, c.view, alpha,
-                                                       micro * alpha, kind.groove, kSamples);
+                                                       micro * alpha, kind.groove, kConeSamples);
         if (want < 0.02) continue;
         const double ratio = probed[i].probability / want;
         finding.require(ratio > 1 / kProbabilityMagnitude && ratio < kProbabilityMagnitude,
@@ -184,7 +184,7 @@ Finding mapped(const CheckContext& context, double half_deg) {
   const auto toMesh = [&](const glm::dvec3& w) { return w.x * t + w.y * b + w.z * n; };
   unsigned seed = 200;
   for (const double alpha : {0.01, 0.03, 0.1, 0.3, 0.6, 1.0}) {
-    std::vector<ConeCase> cases = randomCases(glm::dvec2(alpha), half_rad, ++seed);
+    std::vector<ConeCase> cases = randomCones(glm::dvec2(alpha), half_rad, ++seed);
     const std::size_t n_padded = paddedCount(cases.size());
     std::vector<float> in(9 * n_padded), out(3 * n_padded);
     for (std::size_t i = 0; i < n_padded; ++i) {
@@ -210,7 +210,7 @@ Finding mapped(const CheckContext& context, double half_deg) {
     for (std::size_t i = 0; i < cases.size(); ++i) {
       const ConeCase c = {toLobe(toMesh(cases[i].axis)), toLobe(toMesh(cases[i].view))};
       const double want = reference::coneRadiance({c.axis, half_rad}, c.view, glm::dvec2(alpha),
-                                                  glm::dvec3(1), kSamples)
+                                                  glm::dvec3(1), kConeSamples)
                               .x;
       const double most = std::max(brightest(c, half_rad, glm::dvec2(alpha)), want);
       finding.add(std::abs(out[i] * power - want) / std::max(most, 1e-30));
@@ -226,7 +226,7 @@ Finding halfVectorCell(const CheckContext& context, double half_deg) {
   Finding finding(half_deg <= 20 ? kConeProbability : kWideConeProbability);
   for (const double alpha : {0.01, 0.05, 0.2, 0.6}) {
     std::vector<ConeCase> cases = {{{0, 0, 1}, {0, 0, 1}}};
-    const auto probed = probe(context, cases, materialOf({1, 1}, alpha), half_rad, false);
+    const auto probed = probeCones(context, cases, materialOf({1, 1}, alpha), half_rad, false);
     const double slope = std::tan(half_rad / 2) / alpha, disc = std::tan(half_rad / 4);
     const double share = -std::expm1(-slope * slope);
     finding.add(std::abs(probed[0].cell_side / (std::sqrt(std::numbers::pi / share) * disc) - 1));
@@ -240,9 +240,9 @@ Finding diffuse(const CheckContext& context, double half_deg) {
   for (const double elevation_deg : {90.0, 50.0, 10.0, 2.0, 0.5, 0.0, -0.5, -5.0, -40.0})
     cases.push_back({raised(elevation_deg * kDegree, 0.3), {0, 0, 1}});
   const double half_rad = half_deg * kDegree, power = 2 / (1 + std::cos(half_rad));
-  const auto probed = probe(context, cases, materialOf({0.3, 0.3}, 0.2), half_rad, false);
+  const auto probed = probeCones(context, cases, materialOf({0.3, 0.3}, 0.2), half_rad, false);
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    const double want = reference::coneDiffuse({cases[i].axis, half_rad}, kSamples);
+    const double want = reference::coneDiffuse({cases[i].axis, half_rad}, kConeSamples);
     finding.add(std::abs(probed[i].cosine * power / std::numbers::pi - want));
   }
   return finding;

@@ -169,7 +169,7 @@ constexpr WidthCase kWidthCases[] = {{"zk16", kZk16, false, false, false},
                                      {"zk16_groove_colour_cone", kZk16, true, true, true},
                                      {"exact", kExact, false, false, false}};
 
-Finding sameBits(const CheckContext& context, const WidthCase& c) {
+Finding sameGlints(const CheckContext& context, const WidthCase& c) {
   HandMadeFrame frame;
   frame.pixels = randomPixels(1003, {1e-4, 1e-2, 24});
   frame.material = simpleMaterial({0.3f, 0.2f}, {0.05f, 0.04f}, 1e6f, 1);
@@ -207,7 +207,7 @@ std::vector<Check> glintChecks() {
   for (const WidthCase& c : kWidthCases)
     checks.push_back({std::string("cells/same_bits_") + c.name,
                       "pixels that differ from one lane's",
-                      [&c](const CheckContext& context) { return sameBits(context, c); }});
+                      [&c](const CheckContext& context) { return sameGlints(context, c); }});
   return checks;
 }
 

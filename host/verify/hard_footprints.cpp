@@ -1,8 +1,8 @@
 // Hard footprints: derivatives and texture coordinates at their limits.
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "host/core/angles.h"
 #include "host/harness/random_pixels.h"
 #include "host/harness/tolerances.h"
 #include "host/verify/hard_case.h"
@@ -10,7 +10,6 @@
 namespace glintmark {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
@@ -166,7 +165,7 @@ void seamsAndMirroredCharts(HardCase& hard) {
   hard.expectReference(frame);
 }
 
-constexpr NamedHardCase kCases[] = {
+constexpr NamedHardCase kFootprintCases[] = {
     {"singular_derivatives", singularDerivatives, kFlippedPixelShare},
     {"zero_derivatives", zeroDerivatives, 0},
     {"tiny_derivatives", tinyDerivatives, 0},
@@ -185,7 +184,7 @@ constexpr NamedHardCase kCases[] = {
 }  // namespace
 
 std::span<const NamedHardCase> hardFootprints() {
-  return kCases;
+  return kFootprintCases;
 }
 
 }  // namespace glintmark

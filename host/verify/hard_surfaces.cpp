@@ -115,11 +115,11 @@ void manyLights(HardCase& hard) {
   hard.expectReference(frame);
 }
 
-void onePixel(HardCase& hard) {
+void litOnePixel(HardCase& hard) {
   for (const std::size_t count : {1u, 15u, 17u}) hard.expectReference(plainFrame(count));
 }
 
-constexpr NamedHardCase kCases[] = {
+constexpr NamedHardCase kSurfaceCases[] = {
     {"equal_roughness", microRoughnessEqualsGlobalRoughness, kFlippedPixelShare},
     {"roughness_zero", roughnessNearZero, 0},
     {"anisotropy_1000", roughnessOfOneAxisAThousandTimesTheOther, 0},
@@ -132,13 +132,13 @@ constexpr NamedHardCase kCases[] = {
     {"albedo_0_and_1", albedoZeroAndOne, 0},
     {"no_lights", noLights, 0},
     {"many_lights", manyLights, 0.02},
-    {"one_pixel", onePixel, kFlippedPixelShare},
+    {"one_pixel", litOnePixel, kFlippedPixelShare},
 };
 
 }  // namespace
 
 std::span<const NamedHardCase> hardSurfaces() {
-  return kCases;
+  return kSurfaceCases;
 }
 
 }  // namespace glintmark

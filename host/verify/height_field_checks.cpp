@@ -46,7 +46,7 @@ Finding balance(const CheckContext& context) {
 
 // Smooth to rough and steep to grazing, every kind of surface; flat ones send everything back,
 // black ones nothing.
-Finding extremes(const CheckContext& context) {
+Finding extremeSurfaces(const CheckContext& context) {
   Finding finding(0);
   for (const SurfaceKind kind :
        {SurfaceKind::kDiffuse, SurfaceKind::kMetal, SurfaceKind::kDielectric})
@@ -72,7 +72,7 @@ Finding extremes(const CheckContext& context) {
   return finding;
 }
 
-Finding sameBits(const CheckContext& context) {
+Finding sameCounts(const CheckContext& context) {
   SimulationSettings s;
   s.rays = 20000;
   const Simulation one = simulate(context.withLanes(1), s), wide = simulate(context, s);
@@ -140,8 +140,8 @@ Finding singleScattering(const CheckContext& context) {
 
 std::vector<Check> heightFieldChecks() {
   return {{"height_field/balance", "everything counted over the rays - 1", balance},
-          {"height_field/extremes", "everything counted over the rays - 1", extremes},
-          {"height_field/same_bits", "counts that differ from one lane's", sameBits},
+          {"height_field/extremes", "everything counted over the rays - 1", extremeSurfaces},
+          {"height_field/same_bits", "counts that differ from one lane's", sameCounts},
           {"height_field/slopes", "error of the slopes' variance", slopes},
           {"height_field/first_bounce", "energy against Smith's theory", singleScattering}};
 }

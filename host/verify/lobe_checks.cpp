@@ -23,8 +23,8 @@ struct ProbedLobe {
   float weight, mean_x, mean_y, variance, specular, cosine;
 };
 
-std::vector<ProbedLobe> probe(const CheckContext& context, const std::vector<LobeCase>& cases,
-                              float alpha) {
+std::vector<ProbedLobe> probeLobes(const CheckContext& context, const std::vector<LobeCase>& cases,
+                                   float alpha) {
   const std::size_t n = paddedCount(cases.size());
   std::vector<float> in(10 * n), out(6 * n);
   for (std::size_t i = 0; i < n; ++i) {
@@ -57,7 +57,7 @@ glm::vec3 upward(std::mt19937& random, float most_tilt) {
   return {sine * std::cos(phi), sine * std::sin(phi), std::sqrt(1 - sine * sine)};
 }
 
-std::vector<LobeCase> randomCases(std::size_t n) {
+std::vector<LobeCase> randomLobes(std::size_t n) {
   std::mt19937 random(5);
   std::uniform_real_distribution<float> unit(0, 1);
   std::vector<LobeCase> cases(n);
@@ -71,11 +71,11 @@ std::vector<LobeCase> randomCases(std::size_t n) {
 }
 
 // Every quantity in units of its own bound.
-Finding matchesReference(const CheckContext& context) {
-  const std::vector<LobeCase> cases = randomCases(2000);
+Finding lobesMatchReference(const CheckContext& context) {
+  const std::vector<LobeCase> cases = randomLobes(2000);
   Finding finding(1);
   for (const float alpha : {0.05f, 0.25f, 0.8f}) {
-    const auto probed = probe(context, cases, alpha);
+    const auto probed = probeLobes(context, cases, alpha);
     for (std::size_t i = 0; i < cases.size(); ++i) {
       const ProbedLobe& p = probed[i];
       const reference::NormalLobe lobe = reference::lobeFromMoments(glm::dvec4(cases[i].moments));
@@ -96,9 +96,10 @@ Finding matchesReference(const CheckContext& context) {
   return finding;
 }
 
-Finding sameBits(const CheckContext& context) {
-  const std::vector<LobeCase> cases = randomCases(300);
-  const auto one = probe(context.withLanes(1), cases, 0.2f), wide = probe(context, cases, 0.2f);
+Finding sameLobes(const CheckContext& context) {
+  const std::vector<LobeCase> cases = randomLobes(300);
+  const auto one = probeLobes(context.withLanes(1), cases, 0.2f),
+             wide = probeLobes(context, cases, 0.2f);
   const auto differ = [](float a, float b) {
     return std::bit_cast<std::uint32_t>(a) != std::bit_cast<std::uint32_t>(b);
   };
@@ -125,7 +126,7 @@ Finding hardLobes(const CheckContext& context) {
         cases.push_back({moments, light, view});
   double bad = 0;
   for (const float alpha : {1e-3f, 0.2f, 1.0f})
-    for (const ProbedLobe& lobe : probe(context, cases, alpha))
+    for (const ProbedLobe& lobe : probeLobes(context, cases, alpha))
       for (const float value : {lobe.weight, lobe.variance, lobe.specular, lobe.cosine})
         bad += !(std::isfinite(value) && value >= 0);
   Finding finding(0);
@@ -204,11 +205,11 @@ Finding weightlessLobesGoLast(const CheckContext& context) {
 }  // namespace
 
 std::vector<Check> lobeChecks() {
-  return {{"lobe/reference", "error in units of its bound", matchesReference},
+  return {{"lobe/reference", "error in units of its bound", lobesMatchReference},
           {"lobe/weight_0_variance_0", "values NaN, infinite or negative", hardLobes},
           {"lobe/close_lobes_merge", "error in units of its bound", closeLobesMerge},
           {"lobe/weight_0_last", "error in units of its bound", weightlessLobesGoLast},
-          {"lobe/same_bits", "lobes that differ from one lane's", sameBits}};
+          {"lobe/same_bits", "lobes that differ from one lane's", sameLobes}};
 }
 
 }  // namespace glintmark

@@ -14,13 +14,13 @@
 namespace glintmark {
 namespace {
 
-constexpr std::size_t kSamples = 1 << 16;
+constexpr std::size_t kArguments = 1 << 16;
 
-// kSamples floats from `low` to `high`, evenly spaced, or evenly in their logarithm.
+// kArguments floats from `low` to `high`, evenly spaced, or evenly in their logarithm.
 std::vector<float> range(double low, double high, bool logarithmic) {
-  std::vector<float> x(kSamples);
-  for (std::size_t i = 0; i < kSamples; ++i) {
-    const double t = static_cast<double>(i) / (kSamples - 1);
+  std::vector<float> x(kArguments);
+  for (std::size_t i = 0; i < kArguments; ++i) {
+    const double t = static_cast<double>(i) / (kArguments - 1);
     x[i] = static_cast<float>(logarithmic ? low * std::pow(high / low, t) : low + (high - low) * t);
   }
   return x;
@@ -46,9 +46,9 @@ Finding exp2Error(const CheckContext& context) {
 }
 
 Finding exp2FromBelow(const CheckContext& context) {
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  constexpr float kLowest = -std::numeric_limits<float>::infinity();
   Finding finding(0);
-  addErrors(context, finding, MathFunction::kExp2, {-127.f, -1e4f, -1e30f, -kInfinity},
+  addErrors(context, finding, MathFunction::kExp2, {-127.f, -1e4f, -1e30f, kLowest},
             [](double, double y) { return std::abs(y - std::exp2(-126.)); });
   return finding;
 }
@@ -118,7 +118,7 @@ Finding quantileEnds(const CheckContext& context) {
   return finding;
 }
 
-Finding sameBits(const CheckContext& context) {
+Finding sameValues(const CheckContext& context) {
   const std::pair<MathFunction, std::vector<float>> cases[] = {
       {MathFunction::kExp2, range(-130, 126, false)},
       {MathFunction::kLog2, range(1.2e-38, 3e38, true)},
@@ -151,7 +151,7 @@ std::vector<Check> mathsChecks() {
           {"maths/exp_complement", "relative error", expComplementError},
           {"maths/quantile", "relative error", quantileError},
           {"maths/quantile_ends", "values that are not finite", quantileEnds},
-          {"maths/same_bits", "values that differ from one lane's", sameBits}};
+          {"maths/same_bits", "values that differ from one lane's", sameValues}};
 }
 
 }  // namespace glintmark

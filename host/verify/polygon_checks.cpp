@@ -3,17 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <tuple>
 
+#include "host/core/angles.h"
 #include "host/harness/polygon_cases.h"
 #include "host/harness/tolerances.h"
 #include "host/verify/check_groups.h"
 
 namespace glintmark {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 double lightAtOrigin(const CheckContext& context, const AreaLight& light, bool specular) {
   return lightPoints(context.bench, identityProbe(light, specular, context.lanes),
@@ -105,7 +103,7 @@ Finding solidAngles(const CheckContext& context, double least, double most, doub
   return finding;
 }
 
-Finding sameBits(const CheckContext& context) {
+Finding samePolygonPoints(const CheckContext& context) {
   AreaLightProbe probe = identityProbe(regularPolygon(4, true), true, context.lanes);
   probe.lights.push_back(polygonLight(parallelRectangle(1, 1, 0.5, 2, 1)));
   const std::vector<HandMadePoint> points = randomPoints(777, 1.5, 3);
@@ -144,7 +142,7 @@ std::vector<Check> polygonChecks() {
                   [](const CheckContext& context) {
                     return solidAngles(context, 1e-6, 6, kSmallLightRelative);
                   }},
-                 {"polygon/same_bits", "points that differ from one lane's", sameBits}});
+                 {"polygon/same_bits", "points that differ from one lane's", samePolygonPoints}});
   return checks;
 }
 

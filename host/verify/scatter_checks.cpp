@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "host/core/angles.h"
 #include "host/fit/lobe_model.h"
 #include "host/fit/multiscatter_data.h"
 #include "host/frame/effect/scattering_params.h"
@@ -15,7 +15,6 @@
 namespace glintmark {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 // Below this cosine of the view mu^(eta - 1) no longer grows in the kernels.
 constexpr double kLeastViewCosine = 0.02;
 // Below this cosine of the light the kernels' masking no longer falls.
@@ -131,7 +130,7 @@ void addMaterial(const CheckContext& context, Finding& finding, const Material& 
 
 // Dense grids of roughness, incidence, view, albedo and masking, also where the formulas have
 // nothing to say.
-Finding matchesReference(const CheckContext& context, DiffuseModel model) {
+Finding scatteringMatchesReference(const CheckContext& context, DiffuseModel model) {
   Finding finding(1);
   const std::vector<DirectionPair> pairs = denseDirections();
   for (const double alpha : {0.0, 1e-3, 0.04, 0.08, 0.12, 0.2, 0.3, 0.45, 0.6, 0.75, 0.9, 1.0})
@@ -178,7 +177,7 @@ Finding horizon(const CheckContext& context, DiffuseModel model) {
 }
 
 // The models alone, and whole pixels with several lights.
-Finding sameBits(const CheckContext& context, DiffuseModel model) {
+Finding sameScattering(const CheckContext& context, DiffuseModel model) {
   double different = 0;
   const std::vector<DirectionPair> pairs = denseDirections();
   const Material material = roughMaterial(model, 0.6, 0.8, model == DiffuseModel::kEon ? 0 : 0.7);
@@ -208,10 +207,10 @@ std::vector<Check> scatterChecks() {
       checks.push_back({fmt::format("scatter/{}_{}", m.name, name), measure,
                         [run, &m](const CheckContext& context) { return run(context, m.model); }});
     };
-    add("reference", "error in units of its bound", matchesReference);
+    add("reference", "error in units of its bound", scatteringMatchesReference);
     add("furnace", "energy that leaves - 1", furnace);
     add("horizon", "pixels NaN, infinite or negative", horizon);
-    add("same_bits", "values that differ from one lane's", sameBits);
+    add("same_bits", "values that differ from one lane's", sameScattering);
   }
   return checks;
 }

@@ -35,7 +35,7 @@ struct Shape {
 constexpr Shape kShapes[] = {{64, 64, 1}, {64, 64, 4}, {37, 19, 1}, {1, 1, 1},  {1, 53, 2},
                              {96, 1, 1},  {33, 65, 8}, {20, 30, 3}, {20, 30, 6}};
 
-Finding matchesReference(const CheckContext& context, const Shape& shape) {
+Finding fetchesMatchReference(const CheckContext& context, const Shape& shape) {
   const TestTexture texture = randomTexture(shape.width, shape.height, shape.texel_size, 7);
   const std::vector<TexturePixel> pixels = randomFootprints(400, 11);
   const auto fetched = fetchPixels(context.bench, texture, shape.texel_size, pixels, kMostProbes,
@@ -97,7 +97,7 @@ Finding isotropicProbe(const CheckContext& context) {
   return finding;
 }
 
-Finding sameBits(const CheckContext& context) {
+Finding sameFetches(const CheckContext& context) {
   const TestTexture texture = randomTexture(48, 31, 4, 3);
   const std::vector<TexturePixel> pixels = randomFootprints(333, 5);
   const auto one = fetchPixels(context.bench, texture, 4, pixels, kMostProbes, true, 1);
@@ -121,12 +121,12 @@ std::vector<Check> textureChecks() {
     checks.push_back(
         {fmt::format("texture/{}x{}_of_{}", shape.width, shape.height, shape.texel_size),
          "absolute error",
-         [&shape](const CheckContext& context) { return matchesReference(context, shape); }});
+         [&shape](const CheckContext& context) { return fetchesMatchReference(context, shape); }});
   checks.insert(checks.end(),
                 {{"texture/clamped_borders", "absolute error", clampedBorders},
                  {"texture/bad_derivatives", "fetches out of range", badDerivatives},
                  {"texture/isotropic_level", "error of the level", isotropicProbe},
-                 {"texture/same_bits", "values that differ from one lane's", sameBits}});
+                 {"texture/same_bits", "values that differ from one lane's", sameFetches}});
   return checks;
 }
 

@@ -2,12 +2,16 @@
 #pragma once
 #include <sys/types.h>
 
+#include <chrono>
 #include <string>
 #include <vector>
 
 #include "tests/report/temp_folder.h"
 
 namespace glintmark {
+
+/// What takes seconds at most may take this long before a test gives up.
+inline constexpr std::chrono::seconds kPatience{120};
 
 struct ProcessResult {
   int exit_code = -1;  // -1: ended by a signal

@@ -30,9 +30,6 @@ std::size_t lineCount(const std::filesystem::path& file) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
-// Seconds that a small view may take before the test gives up, far above the usual one or two.
-constexpr std::chrono::seconds kPatience{120};
-
 bool waitForLines(const std::filesystem::path& file, std::size_t lines) {
   const auto give_up = steady_clock::now() + kPatience;
   while (steady_clock::now() < give_up) {

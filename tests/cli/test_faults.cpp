@@ -18,7 +18,6 @@ namespace {
 
 using std::chrono::steady_clock;
 
-constexpr std::chrono::seconds kPatience{120};
 constexpr int kKills = 4;
 
 std::vector<std::string> sweep(const std::filesystem::path& folder,

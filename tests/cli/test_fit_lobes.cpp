@@ -12,8 +12,8 @@ namespace glintmark {
 namespace {
 
 // Fails with one sentence that has every one of `parts`, and leaves no file in `folder`.
-void expectRefusal(const TempFolder& folder, std::vector<std::string> options,
-                   const std::vector<std::string>& parts) {
+void expectRefusedFit(const TempFolder& folder, std::vector<std::string> options,
+                      const std::vector<std::string>& parts) {
   std::vector<std::string> arguments = {"fit", "lobes", "--quiet"};
   arguments.insert(arguments.end(), options.begin(), options.end());
   const ProcessResult result = runGlintmark(arguments);
@@ -29,21 +29,21 @@ TEST(FitLobes, ImpossibleOptionsAreRefusedBeforeAnyWork) {
   const TempFolder folder;
   const std::string output = folder / "out";
   for (const char* rays : {"0", "999", "-5", "1e13", "nan"}) {
-    expectRefusal(folder, {"-o", output, "--rays", rays}, {"--rays", "1000 to 1e+12"});
-    expectRefusal(folder, {"-o", output, "--mirror-rays", rays},
-                  {"--mirror-rays", "1000 to 1e+12"});
+    expectRefusedFit(folder, {"-o", output, "--rays", rays}, {"--rays", "1000 to 1e+12"});
+    expectRefusedFit(folder, {"-o", output, "--mirror-rays", rays},
+                     {"--mirror-rays", "1000 to 1e+12"});
   }
-  expectRefusal(folder, {"-o", output, "--rays", "many"}, {"--rays", "many"});
-  expectRefusal(folder, {"-o", output, "--picture", folder / "a.jpg"},
-                {"--picture", "a.jpg", ".png"});
-  expectRefusal(folder, {"-o", output, "--rais", "2000"}, {"--rais", "--rays"});
+  expectRefusedFit(folder, {"-o", output, "--rays", "many"}, {"--rays", "many"});
+  expectRefusedFit(folder, {"-o", output, "--picture", folder / "a.jpg"},
+                   {"--picture", "a.jpg", ".png"});
+  expectRefusedFit(folder, {"-o", output, "--rais", "2000"}, {"--rais", "--rays"});
 }
 
 TEST(FitLobes, OutputsThatCannotBeWrittenAreRefusedBeforeAnyWork) {
   const TempFolder folder;
   const std::string nowhere = folder / "missing";
-  expectRefusal(folder, {"--picture", nowhere + "/a.png"}, {nowhere});
-  expectRefusal(folder, {"-o", "/dev/null/out"}, {"/dev/null"});
+  expectRefusedFit(folder, {"--picture", nowhere + "/a.png"}, {nowhere});
+  expectRefusedFit(folder, {"-o", "/dev/null/out"}, {"/dev/null"});
 }
 
 TEST(FitLobes, WritesTablesPicturesAndData) {

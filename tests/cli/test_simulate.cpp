@@ -17,7 +17,8 @@ ProcessResult simulate(const std::vector<std::string>& options) {
 }
 
 // Fails with one sentence that has every one of `parts`.
-void expectRefusal(const std::vector<std::string>& options, const std::vector<std::string>& parts) {
+void expectRefusedSimulation(const std::vector<std::string>& options,
+                             const std::vector<std::string>& parts) {
   const ProcessResult result = simulate(options);
   EXPECT_EQ(result.exit_code, 2) << result.err;
   EXPECT_EQ(result.out, "");
@@ -27,46 +28,49 @@ void expectRefusal(const std::vector<std::string>& options, const std::vector<st
 }
 
 TEST(Simulate, ImpossibleOptionsAreRefused) {
-  expectRefusal({"--surface", "wood"}, {"'wood'", "diffuse, metal, dielectric"});
+  expectRefusedSimulation({"--surface", "wood"}, {"'wood'", "diffuse, metal, dielectric"});
   for (const char* alpha : {"0", "-1", "3", "nan"})
-    expectRefusal({"--alpha", alpha}, {"roughness along x", "0.0001 to 2"});
-  expectRefusal({"--alpha", "0.5", "7"}, {"roughness along y 7", "0.0001 to 2"});
+    expectRefusedSimulation({"--alpha", alpha}, {"roughness along x", "0.0001 to 2"});
+  expectRefusedSimulation({"--alpha", "0.5", "7"}, {"roughness along y 7", "0.0001 to 2"});
   for (const char* angle : {"90", "-1", "inf"})
-    expectRefusal({"--incidence", angle}, {"incidence", "0 to 89.95"});
-  expectRefusal({"--azimuth", "500"}, {"azimuth", "500"});
+    expectRefusedSimulation({"--incidence", angle}, {"incidence", "0 to 89.95"});
+  expectRefusedSimulation({"--azimuth", "500"}, {"azimuth", "500"});
   for (const char* rays : {"-1", "1e30", "nan"})
-    expectRefusal({"--rays", rays}, {"--rays", "1 to 2^48"});
-  expectRefusal({"--rays", "0"}, {"0 rays", "at least 1"});
-  expectRefusal({"--rays", "many"}, {"--rays", "many"});
+    expectRefusedSimulation({"--rays", rays}, {"--rays", "1 to 2^48"});
+  expectRefusedSimulation({"--rays", "0"}, {"0 rays", "at least 1"});
+  expectRefusedSimulation({"--rays", "many"}, {"--rays", "many"});
   for (const char* orders : {"0", "7"})
-    expectRefusal({"--orders", orders}, {"orders", orders, "1 to 6"});
-  expectRefusal({"--surface", "dielectric", "--ior", "1"}, {"index of refraction 1", "air"});
-  expectRefusal({"--surface", "dielectric", "--ior", "0"}, {"index of refraction", "0.05 to 20"});
-  expectRefusal({"--surface", "metal", "--k", "-1"}, {"imaginary", "-1", "0 to 1000"});
-  expectRefusal({"--albedo", "1.5"}, {"--albedo 1.5", "0 to 1"});
-  expectRefusal({"--albedo", "0.5", "--surface", "metal"}, {"--albedo", "Fresnel"});
-  expectRefusal({"--correlation", "20", "--rays", "10"}, {"correlation length 20", "1.5 to 8"});
+    expectRefusedSimulation({"--orders", orders}, {"orders", orders, "1 to 6"});
+  expectRefusedSimulation({"--surface", "dielectric", "--ior", "1"},
+                          {"index of refraction 1", "air"});
+  expectRefusedSimulation({"--surface", "dielectric", "--ior", "0"},
+                          {"index of refraction", "0.05 to 20"});
+  expectRefusedSimulation({"--surface", "metal", "--k", "-1"}, {"imaginary", "-1", "0 to 1000"});
+  expectRefusedSimulation({"--albedo", "1.5"}, {"--albedo 1.5", "0 to 1"});
+  expectRefusedSimulation({"--albedo", "0.5", "--surface", "metal"}, {"--albedo", "Fresnel"});
+  expectRefusedSimulation({"--correlation", "20", "--rays", "10"},
+                          {"correlation length 20", "1.5 to 8"});
 }
 
 TEST(Simulate, OutputsThatCannotBeWrittenAreRefusedBeforeAnyWork) {
   const TempFolder folder;
   for (const char* option : {"-o", "--csv", "--checkpoint"})
-    expectRefusal({option, folder / "missing/a.png"}, {"missing"});
-  expectRefusal({"-o", folder / "a.jpg"}, {"a.jpg", ".png"});
+    expectRefusedSimulation({option, folder / "missing/a.png"}, {"missing"});
+  expectRefusedSimulation({"-o", folder / "a.jpg"}, {"a.jpg", ".png"});
   EXPECT_EQ(folder.entryCount(), 0u);
 }
 
 TEST(Simulate, CarriesOnFromItsOwnCheckpointsOnly) {
   const TempFolder folder;
   const std::string file = folder / "run.sim";
-  expectRefusal({"--resume"}, {"--resume", "--checkpoint FILE"});
-  expectRefusal({"--resume", "--checkpoint", file}, {"run.sim"});
+  expectRefusedSimulation({"--resume"}, {"--resume", "--checkpoint FILE"});
+  expectRefusedSimulation({"--resume", "--checkpoint", file}, {"run.sim"});
   ASSERT_EQ(simulate({"--rays", "1048576", "--checkpoint", file}).exit_code, 0);
   const std::string whole = readFile(file);
-  expectRefusal({"--resume", "--checkpoint", file, "--alpha", "0.5"},
-                {"run.sim", "another run", "alpha=0.8", "alpha=0.5"});
-  expectRefusal({"--resume", "--checkpoint", file, "--rays", "1000"},
-                {"run.sim", "1048576", "1000"});
+  expectRefusedSimulation({"--resume", "--checkpoint", file, "--alpha", "0.5"},
+                          {"run.sim", "another run", "alpha=0.8", "alpha=0.5"});
+  expectRefusedSimulation({"--resume", "--checkpoint", file, "--rays", "1000"},
+                          {"run.sim", "1048576", "1000"});
   const ProcessResult more =
       simulate({"--resume", "--checkpoint", file, "--rays", "1050000", "--csv", folder / "a.csv"});
   EXPECT_EQ(more.exit_code, 0) << more.err;
@@ -74,9 +78,9 @@ TEST(Simulate, CarriesOnFromItsOwnCheckpointsOnly) {
   ASSERT_EQ(simulate({"--rays", "1050000", "--csv", folder / "b.csv"}).exit_code, 0);
   EXPECT_EQ(readFile(folder / "a.csv"), readFile(folder / "b.csv"));
   writeFile(file, whole.substr(0, whole.size() - 9));
-  expectRefusal({"--resume", "--checkpoint", file}, {"run.sim", "damaged"});
+  expectRefusedSimulation({"--resume", "--checkpoint", file}, {"run.sim", "damaged"});
   writeFile(file, "a letter");
-  expectRefusal({"--resume", "--checkpoint", file}, {"run.sim", "not a checkpoint"});
+  expectRefusedSimulation({"--resume", "--checkpoint", file}, {"run.sim", "not a checkpoint"});
 }
 
 TEST(Simulate, SaysRoughnessAndBalanceAndDrawsPictures) {

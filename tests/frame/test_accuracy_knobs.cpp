@@ -20,14 +20,14 @@ ShadingOptions fewLanes() {
   return options;
 }
 
-Image radianceOf(const Scene& scene, const ShadingOptions& options, double angle_deg = 20) {
+Image radianceAt(const Scene& scene, const ShadingOptions& options, double angle_deg = 20) {
   FrameRenderer renderer(device(), scene, lookingDown(angle_deg), options, 2);
   renderer.prepare();
   renderer.shade();
   return renderer.readRadiance();
 }
 
-double meanOf(const Image& image) {
+double meanRed(const Image& image) {
   double sum = 0;
   for (std::size_t i = 0; i < image.pixels.size(); i += 4) sum += image.pixels[i];
   return sum / (static_cast<double>(image.pixels.size()) / 4);
@@ -37,7 +37,7 @@ double meanOf(const Image& image) {
 double relativeDifference(const Image& a, const Image& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.pixels.size(); i += 4) sum += std::abs(a.pixels[i] - b.pixels[i]);
-  return sum / (static_cast<double>(a.pixels.size()) / 4) / meanOf(b);
+  return sum / (static_cast<double>(a.pixels.size()) / 4) / meanRed(b);
 }
 
 // Some hundred microdetails under a pixel, of which a few reflect: neither rare nor a crowd.
@@ -52,13 +52,13 @@ Image glints(BinomialForm form, int terms = 16, GlintMethod method = GlintMethod
   options.method = method;
   options.binomial = form;
   options.binomial_terms = terms;
-  return radianceOf(sparseScene(), options);
+  return radianceAt(sparseScene(), options);
 }
 
 Image smooth() {
   ShadingOptions options = fewLanes();
   options.glints = false;
-  return radianceOf(sparseScene(), options);
+  return radianceAt(sparseScene(), options);
 }
 
 TEST(AccuracyKnobs, SpelledOutDefaultsGiveTheSameBits) {
@@ -91,22 +91,22 @@ TEST(AccuracyKnobs, OneGridKeepsTheMean) {
   for (const GlintMethod method : {GlintMethod::kZk16, GlintMethod::kExact}) {
     ShadingOptions options = fewLanes();
     options.method = method;
-    const Image two = radianceOf(floorScene(), options);
+    const Image two = radianceAt(floorScene(), options);
     options.grids = 1;
-    const Image one = radianceOf(floorScene(), options);
+    const Image one = radianceAt(floorScene(), options);
     // 9216 pixels, each with a standard deviation of one to two times its mean: 2 %.
-    EXPECT_NEAR(meanOf(one) / meanOf(two), 1, 0.08);
+    EXPECT_NEAR(meanRed(one) / meanRed(two), 1, 0.08);
     EXPECT_NE(one.pixels, two.pixels);
   }
 }
 
 TEST(AccuracyKnobs, TheDevicesMathsShowTheSamePicture) {
   ShadingOptions options = fewLanes();
-  const Image own = radianceOf(floorScene(), options);
+  const Image own = radianceAt(floorScene(), options);
   for (const Maths maths : {Maths::kNative, Maths::kPrecise}) {
     options.maths = maths;
     // A draw on the edge may fall the other way in a pixel here and there.
-    EXPECT_LT(relativeDifference(radianceOf(floorScene(), options), own), 0.01);
+    EXPECT_LT(relativeDifference(radianceAt(floorScene(), options), own), 0.01);
   }
 }
 
@@ -125,22 +125,22 @@ Scene areaLightScene() {
 
 TEST(AccuracyKnobs, EdgeIntegralsAgree) {
   ShadingOptions options = fewLanes();
-  const Image fit = radianceOf(areaLightScene(), options);
-  ASSERT_GT(meanOf(fit), 0);
+  const Image fit = radianceAt(areaLightScene(), options);
+  ASSERT_GT(meanRed(fit), 0);
   options.edges = EdgeIntegral::kAcos;
-  EXPECT_LT(relativeDifference(radianceOf(areaLightScene(), options), fit), 1e-3);
+  EXPECT_LT(relativeDifference(radianceAt(areaLightScene(), options), fit), 1e-3);
   options.edges = EdgeIntegral::kRational;
-  EXPECT_LT(relativeDifference(radianceOf(areaLightScene(), options), fit), 1e-2);
+  EXPECT_LT(relativeDifference(radianceAt(areaLightScene(), options), fit), 1e-2);
 }
 
 TEST(AccuracyKnobs, TablesOfCosinesInPlaceOfTheShippedOne) {
   ShadingOptions options = fewLanes();
-  const Image shipped = radianceOf(areaLightScene(), options);
+  const Image shipped = radianceAt(areaLightScene(), options);
   options.ltc_table = std::make_shared<const LtcTable>(shippedLtcTable(reference::Ndf::kGgx));
-  EXPECT_EQ(radianceOf(areaLightScene(), options).pixels, shipped.pixels);
+  EXPECT_EQ(radianceAt(areaLightScene(), options).pixels, shipped.pixels);
   options.ltc_table = nullptr;
   options.ltc_half = true;
-  const Image half = radianceOf(areaLightScene(), options);
+  const Image half = radianceAt(areaLightScene(), options);
   EXPECT_LT(relativeDifference(half, shipped), 1e-2);  // halves have 11 bits
   EXPECT_NE(half.pixels, shipped.pixels);
 }
@@ -151,11 +151,11 @@ TEST(AccuracyKnobs, IterationsOfTheFitReachTheMixtures) {
   scene.materials[0].normal_map = NormalMapSource{
       std::make_shared<const NormalMap>(generateNormalMap({.kind = "disk", .size_px = 32})), 4};
   ShadingOptions options = fewLanes();
-  const Image standard = radianceOf(scene, options);
+  const Image standard = radianceAt(scene, options);
   options.mixture_iterations = MixtureOptions{}.max_iterations;
-  EXPECT_EQ(radianceOf(scene, options).pixels, standard.pixels);
+  EXPECT_EQ(radianceAt(scene, options).pixels, standard.pixels);
   options.mixture_iterations = 1;
-  EXPECT_NE(radianceOf(scene, options).pixels, standard.pixels);
+  EXPECT_NE(radianceAt(scene, options).pixels, standard.pixels);
 }
 
 }  // namespace

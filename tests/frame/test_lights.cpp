@@ -3,16 +3,14 @@
 
 #include <cmath>
 #include <glm/glm.hpp>
-#include <numbers>
 #include <vector>
 
+#include "host/core/angles.h"
 #include "host/frame/effect/light_taps.h"
 #include "host/frame/effect/lights.h"
 
 namespace glintmark {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 ConeLight cone(double half_deg) {
   ConeLight light{};

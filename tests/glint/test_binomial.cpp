@@ -13,7 +13,7 @@
 namespace glintmark {
 namespace {
 
-constexpr double kSignificance = 1e-5;  // 100 cases with fixed seeds
+constexpr double kBinomialSignificance = 1e-5;  // 100 cases with fixed seeds
 constexpr std::size_t kDraws = kBinomialDraws;
 constexpr int kLanes = 16;
 
@@ -51,7 +51,8 @@ TEST_P(Binomial, ChiSquare) {
     EXPECT_NEAR(total_expected, kDraws, 1e-3 * kDraws);
     if (classes < 2) continue;
     const double p_value = cdf(complement(boost::math::chi_squared(classes - 1), chi));
-    EXPECT_GT(p_value, kSignificance) << c.n << " " << c.p << " chi2 " << chi << " of " << classes;
+    EXPECT_GT(p_value, kBinomialSignificance)
+        << c.n << " " << c.p << " chi2 " << chi << " of " << classes;
   }
 }
 

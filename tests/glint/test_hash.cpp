@@ -13,9 +13,9 @@
 namespace glintmark {
 namespace {
 
-// A test of true randomness fails once in 1 / kSignificance runs; seeds are fixed, so it either
+// A test of true randomness fails once in 1 / kHashSignificance runs; seeds are fixed, so it either
 // always passes or never.
-constexpr double kSignificance = 1e-5;
+constexpr double kHashSignificance = 1e-5;
 
 constexpr std::int32_t kMin = std::numeric_limits<std::int32_t>::min();
 constexpr std::int32_t kMax = std::numeric_limits<std::int32_t>::max();
@@ -118,8 +118,8 @@ const std::int32_t kBases[][4] = {{0, 0, 0, 0},
 TEST(HashQuality, DrawsAreUniform) {
   for (const auto& b : kBases) {
     const PairNumbers numbers = numbersOf(b[0], b[1], b[2], b[3]);
-    EXPECT_GT(uniformityPValue(distinct(numbers.draw)), kSignificance) << b[0];
-    EXPECT_GT(uniformityPValue(distinct(numbers.rounding)), kSignificance) << b[0];
+    EXPECT_GT(uniformityPValue(distinct(numbers.draw)), kHashSignificance) << b[0];
+    EXPECT_GT(uniformityPValue(distinct(numbers.rounding)), kHashSignificance) << b[0];
   }
 }
 
@@ -142,7 +142,7 @@ TEST(HashQuality, DrawSizeAndRoundingAreIndependent) {
     const auto u = distinct(numbers.draw), g = distinct(numbers.size),
                r = distinct(numbers.rounding);
     const double bound = 4 / std::sqrt(static_cast<double>(u.size()));
-    EXPECT_GT(independencePValue(u, r), kSignificance) << b[0];
+    EXPECT_GT(independencePValue(u, r), kHashSignificance) << b[0];
     EXPECT_LT(std::abs(correlation(u, g)), bound) << b[0];
     EXPECT_LT(std::abs(correlation(r, g)), bound) << b[0];
   }
@@ -161,7 +161,7 @@ TEST(HashQuality, NeighboursAreIndependent) {
         {"cell u + 2", distinct(numbersOf(b[0] + 2, b[1], b[2], b[3]).draw)},
         {"cell v + 2", distinct(numbersOf(b[0], b[1] + 2, b[2], b[3]).draw)}};
     for (const auto& [name, other] : others)
-      EXPECT_GT(independencePValue(here, other), kSignificance) << name << " at " << b[0];
+      EXPECT_GT(independencePValue(here, other), kHashSignificance) << name << " at " << b[0];
   }
 }
 

@@ -43,6 +43,11 @@ std::vector<std::string> readmeFaults(const Files& files, const Order& order,
 /// Names that glintmark_test() and glintmark_bench() define in the project's CMakeLists.txt files.
 std::set<std::string> definedPrograms(const Files& files);
 
+/// What stands in unnamed namespaces of two sources of one folder under one name: such sources
+/// cannot be compiled together. Functions may differ in their parameters. Programs of one source,
+/// as those of bench, are left out. Read line by line, as clang-format leaves them.
+std::vector<std::string> sharedUnnamed(const Files& files);
+
 // --- Shared by the rules ------------------------------------------------------------------------
 
 struct Include {

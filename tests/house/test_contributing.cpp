@@ -34,7 +34,7 @@ const std::vector<std::string>& projectPaths() {
 }
 
 // Is it a path of the project? "<name>" stands for any one name.
-bool exists(const std::string& path) {
+bool existsAs(const std::string& path) {
   static const std::regex special(R"([.+*?()\[\]{}|^$\\])"), placeholder("<[a-z_]+>");
   const std::string escaped = std::regex_replace(path, special, R"(\$&)");
   const std::regex pattern(std::regex_replace(escaped, placeholder, "[^/]+") + "/?");
@@ -54,7 +54,7 @@ std::vector<std::string> pathsIn(const std::string& text) {
 TEST(Contributing, NamesFilesThatExist) {
   const std::vector<std::string> paths = pathsIn(readFile(kProject / "CONTRIBUTING.md"));
   EXPECT_GT(paths.size(), 25u);
-  for (const std::string& path : paths) EXPECT_TRUE(exists(path)) << path;
+  for (const std::string& path : paths) EXPECT_TRUE(existsAs(path)) << path;
 }
 
 TEST(Contributing, SaysHowToAddEachKind) {
@@ -67,11 +67,11 @@ TEST(Contributing, SaysHowToAddEachKind) {
 TEST(Contributing, ATestCanFindAPathThatIsNotThere) {
   EXPECT_EQ(pathsIn("see `host/none.cpp`, `./run test`, `KNOB` and `a/<name>.b`"),
             (std::vector<std::string>{"host/none.cpp", "a/<name>.b"}));
-  EXPECT_FALSE(exists("host/none.cpp"));
-  EXPECT_FALSE(exists("host/core/<name>.toml"));
-  EXPECT_TRUE(exists("host/core/<name>.h"));
-  EXPECT_TRUE(exists("host/core/"));
-  EXPECT_TRUE(exists("README.md"));
+  EXPECT_FALSE(existsAs("host/none.cpp"));
+  EXPECT_FALSE(existsAs("host/core/<name>.toml"));
+  EXPECT_TRUE(existsAs("host/core/<name>.h"));
+  EXPECT_TRUE(existsAs("host/core/"));
+  EXPECT_TRUE(existsAs("README.md"));
 }
 
 }  // namespace

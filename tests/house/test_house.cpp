@@ -57,6 +57,11 @@ TEST(House, OrderKnowsEveryFolderOfHostOnce) {
   EXPECT_EQ(ordered, there);
 }
 
+TEST(House, WhatIsUnnamedIsCalledLikeNothingElseOfItsFolder) {
+  const auto faults = sharedUnnamed(projectFiles());
+  EXPECT_TRUE(faults.empty()) << listOf(faults);
+}
+
 TEST(House, EveryIncludeKeepsToTheOrder) {
   const auto faults = includeFaults(projectFiles(), projectOrder());
   EXPECT_TRUE(faults.empty()) << listOf(faults);

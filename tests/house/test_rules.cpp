@@ -104,6 +104,38 @@ TEST(Circles, OfFoldersAreFound) {
   EXPECT_EQ(circles(files)[0], "host/report/picture -> host/report/record -> host/report/picture");
 }
 
+// --- Unnamed namespaces -------------------------------------------------------------------------
+
+std::vector<std::string> faultsOfUnnamed(const std::string& a, const std::string& b,
+                                         const std::string& folder = "host/core/") {
+  return sharedUnnamed({{"host/core/a.cpp", "namespace {\n\n" + a + "\n}  // namespace\n"},
+                        {folder + "b.cpp", "int k;\nnamespace {\n" + b + "\n}  // namespace\n"}});
+}
+
+TEST(Unnamed, OneNameInTwoSourcesOfAFolderIsAFault) {
+  for (const char* declared :
+       {"struct Thing {\n  int a;\n};", "class Thing : public Other {\n};",
+        "enum class Thing { kA };", "constexpr int Thing = 3;  // \"{\"",
+        "const std::string Thing[] = {\n  \"}\"\n};",
+        "std::vector<int> Thing(const A& a) {\n  return {};\n}", "constexpr double Thing[2][3] = {",
+        "A& Thing(int x,\n         int y) {\n}", "constexpr std::size_t Thing{2};"}) {
+    const auto faults = faultsOfUnnamed("int before() {\n  return 1;\n}\n" + std::string(declared),
+                                        std::string(declared) + "\nint after;");
+    EXPECT_EQ(faults, std::vector<std::string>{"host/core/b.cpp: 'Thing' is also a name of "
+                                               "host/core/a.cpp"})
+        << declared;
+    EXPECT_TRUE(faultsOfUnnamed(declared, declared, "host/ocl/").empty()) << declared;
+  }
+}
+
+TEST(Unnamed, OtherFunctionsOfANameLocalNamesAndOutsidersAreNot) {
+  EXPECT_TRUE(faultsOfUnnamed("int f(int x) {\n}", "int f(double x) {\n}").empty());
+  EXPECT_TRUE(
+      faultsOfUnnamed("int f() {\n  constexpr int kA = 1;\n}", "constexpr int kA = 1;").empty());
+  EXPECT_TRUE(faultsOfUnnamed("}  // namespace\nint k;\nnamespace {", "").empty());
+  EXPECT_TRUE(faultsOfUnnamed("// struct A {};", "struct A {};").empty());
+}
+
 // --- READMEs ------------------------------------------------------------------------------------
 
 constexpr const char* kReadme =

@@ -29,7 +29,7 @@ Material clay(DiffuseModel model, double alpha, double masking = 0) {
   return material;
 }
 
-Material mirror(double alpha, Compensation compensation, float f0 = 1) {
+Material mirrorMaterial(double alpha, Compensation compensation, float f0 = 1) {
   Material material;
   material.name = "mirror";
   material.has_glints = false;
@@ -81,7 +81,7 @@ TEST(WhiteFurnace, AMirrorLosesWhatItsLobeLoses) {
   Device& device = testBench().device;
   for (const double alpha : {0.05, 0.24, 0.5, 1.0})
     for (const double mu : {0.05, 0.2, 0.6, 1.0})
-      EXPECT_NEAR(whiteFurnace(device, mirror(alpha, Compensation::kOff), mu),
+      EXPECT_NEAR(whiteFurnace(device, mirrorMaterial(alpha, Compensation::kOff), mu),
                   reference::microfacetAlbedo(reference::Ndf::kBeckmann, mu, alpha,
                                               reference::SmithForm::kRational),
                   kMirrorTolerance)
@@ -92,7 +92,8 @@ TEST(WhiteFurnace, ACompensatedMirrorLosesNothing) {
   Device& device = testBench().device;
   for (const double alpha : {0.02, 0.05, 0.1, 0.24, 0.5, 0.77, 1.0})
     for (const double mu : {0.02, 0.05, 0.1, 0.2, 0.4, 0.7, 1.0})
-      EXPECT_NEAR(whiteFurnace(device, mirror(alpha, Compensation::kLobe), mu), 1, kMirrorTolerance)
+      EXPECT_NEAR(whiteFurnace(device, mirrorMaterial(alpha, Compensation::kLobe), mu), 1,
+                  kMirrorTolerance)
           << alpha << " " << mu;
 }
 
@@ -101,7 +102,8 @@ TEST(WhiteFurnace, AMirrorByTheSimulatedTableLosesAtMostTheSimulationsExcess) {
   Device& device = testBench().device;
   for (const double alpha : {0.1, 0.5, 1.0})
     for (const double mu : {0.1, 0.4, 1.0}) {
-      const double radiance = whiteFurnace(device, mirror(alpha, Compensation::kSimulated), mu);
+      const double radiance =
+          whiteFurnace(device, mirrorMaterial(alpha, Compensation::kSimulated), mu);
       EXPECT_GE(radiance, 0.95) << alpha << " " << mu;
       EXPECT_LE(radiance, 1 + kMirrorTolerance) << alpha << " " << mu;
     }
@@ -110,8 +112,8 @@ TEST(WhiteFurnace, AMirrorByTheSimulatedTableLosesAtMostTheSimulationsExcess) {
 TEST(WhiteFurnace, CompensationIsInProportionToReflectance) {
   Device& device = testBench().device;
   const auto gain = [&](float f0) {
-    return whiteFurnace(device, mirror(0.8, Compensation::kLobe, f0), 0.7) /
-               whiteFurnace(device, mirror(0.8, Compensation::kOff, f0), 0.7) -
+    return whiteFurnace(device, mirrorMaterial(0.8, Compensation::kLobe, f0), 0.7) /
+               whiteFurnace(device, mirrorMaterial(0.8, Compensation::kOff, f0), 0.7) -
            1;
   };
   EXPECT_NEAR(gain(0.5f), 0.5 * gain(1), 1e-3);

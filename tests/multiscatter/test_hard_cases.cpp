@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "host/core/angles.h"
 #include "host/fit/lobe_model.h"
 #include "host/harness/scatter_harness.h"
 #include "host/harness/tolerances.h"
@@ -14,7 +14,6 @@
 namespace glintmark {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 /// Below this cosine of the view mu^(eta - 1) no longer grows in the kernels.
 constexpr double kLeastComparedCosine = 0.02;
 

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "host/core/angles.h"
 #include "host/fit/lobe_fit.h"
 #include "host/fit/lobe_model.h"
 #include "host/fit/multiscatter_data.h"
@@ -14,7 +14,6 @@
 namespace glintmark {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 // Midpoint quadrature of smooth lobes with 200 cosines.
 constexpr double kQuadrature = 1e-3;
 

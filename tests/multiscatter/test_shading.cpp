@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 #include <cmath>
-#include <numbers>
 
+#include "host/core/angles.h"
 #include "host/fit/lobe_model.h"
 #include "host/fit/multiscatter_data.h"
 #include "host/frame/frame_renderer.h"
@@ -14,7 +14,6 @@
 namespace glintmark {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 // Single precision and the interpolated shares, which are good to 1e-4.
 constexpr double kTolerance = 2e-3;
 

@@ -13,6 +13,10 @@
 
 namespace glintmark {
 
+/// The project's own.
+inline const std::filesystem::path kKernels =
+    std::filesystem::path(GLINTMARK_SOURCE_DIR) / "kernels";
+
 /// A folder that is gone with the object.
 class TemporaryFolder {
  public:

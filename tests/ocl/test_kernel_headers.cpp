@@ -14,8 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kKernels = fs::path(GLINTMARK_SOURCE_DIR) / "kernels";
-
 bool isTemplate(const fs::path& file) {
   return file.string().ends_with("_template.clh");
 }

@@ -20,8 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kKernels = fs::path(GLINTMARK_SOURCE_DIR) / "kernels";
-
 // Lines of text from the one that starts with `first` to the next empty one.
 std::vector<std::string> paragraph(const std::string& text, const std::string& first) {
   std::istringstream stream(text);

@@ -30,7 +30,7 @@ std::size_t countOf(const std::string& text, const std::string& part) {
   return count;
 }
 
-Results sampleResults() {
+Results pageResults() {
   Record timed = sampleRecord("snow/steep", "shading_ms", 42);
   timed.paper = 2.5;
   Record broken = sampleRecord("snow/grazing", "shading_ms", 99);
@@ -40,7 +40,7 @@ Results sampleResults() {
 }
 
 TEST(HtmlReport, ShowsFactsPaperAndRatio) {
-  const std::string page = htmlReport(sampleResults(), {}, {}, "results.json");
+  const std::string page = htmlReport(pageResults(), {}, {}, "results.json");
   EXPECT_TRUE(page.starts_with("<!doctype html>"));
   EXPECT_NE(page.find("<td>2.50</td><td class=\"here\">42.0</td>"), std::string::npos);
   EXPECT_NE(page.find("1.000\">16.8</td>"), std::string::npos);  // 42 / 2.5, the longest bar
@@ -50,7 +50,7 @@ TEST(HtmlReport, ShowsFactsPaperAndRatio) {
 }
 
 TEST(HtmlReport, NothingIsLoadedAndNothingEscapes) {
-  const std::string page = htmlReport(sampleResults(), {}, {}, "results.json");
+  const std::string page = htmlReport(pageResults(), {}, {}, "results.json");
   EXPECT_EQ(page.find("src=\"http"), std::string::npos);
   EXPECT_EQ(page.find("href=\"http"), std::string::npos);
   EXPECT_EQ(countOf(page, "<link"), 1u);  // the empty icon
@@ -62,7 +62,7 @@ TEST(HtmlReport, NothingIsLoadedAndNothingEscapes) {
 }
 
 TEST(HtmlReport, RecordsCanBeReadBack) {
-  const std::string page = htmlReport(sampleResults(), {}, {}, "results.json");
+  const std::string page = htmlReport(pageResults(), {}, {}, "results.json");
   const std::string open = "id=\"records\">";
   const std::size_t begin = page.find(open) + open.size();
   const auto json = nlohmann::json::parse(page.substr(begin, page.find("</script>") - begin));
@@ -72,21 +72,21 @@ TEST(HtmlReport, RecordsCanBeReadBack) {
 
 TEST(HtmlReport, PicturesAreInside) {
   const ReportPicture picture{"cells & more.png", "foobar", "", {}};
-  const std::string page = htmlReport(sampleResults(), {}, {&picture, 1}, "results.json");
+  const std::string page = htmlReport(pageResults(), {}, {&picture, 1}, "results.json");
   EXPECT_NE(page.find("data:image/png;base64,Zm9vYmFy"), std::string::npos);
   EXPECT_NE(page.find("cells &amp; more.png"), std::string::npos);
 }
 
 TEST(HtmlReport, PicturesThatCannotBeReadAreSaidInTheirPlace) {
   const ReportPicture broken{"other.png", "", "cannot read <it>", {}};
-  EXPECT_NE(htmlReport(sampleResults(), {}, {&broken, 1}, "r").find("cannot read &lt;it&gt;"),
+  EXPECT_NE(htmlReport(pageResults(), {}, {&broken, 1}, "r").find("cannot read &lt;it&gt;"),
             std::string::npos);
 }
 
 TEST(HtmlReport, PicturesThatWouldMakeItTooLargeAreLeftOut) {
   const std::vector<ReportPicture> pictures = {{"first.png", std::string(3'000'000, 'a'), "", {}},
                                                {"second.png", std::string(6'000'000, 'b'), "", {}}};
-  const std::string page = htmlReport(sampleResults(), {}, pictures, "results.json");
+  const std::string page = htmlReport(pageResults(), {}, pictures, "results.json");
   EXPECT_LT(page.size(), kMostPageBytes);
   EXPECT_EQ(countOf(page, "data:image/png"), 1u);
   EXPECT_NE(page.find("second.png is left out"), std::string::npos);

@@ -12,7 +12,7 @@ std::string withLight(const std::string& keys) {
 
 constexpr const char* kSquare = "vertices = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]";
 
-std::string complaint(const std::string& keys) {
+std::string lightComplaint(const std::string& keys) {
   const TemporaryFolder folder;
   const std::string file = folder.write("scene.toml", withLight(keys));
   return errorOf([&] { load(file); });
@@ -43,21 +43,23 @@ TEST(AreaLights, OneIsEnoughLightForAScene) {
 }
 
 TEST(AreaLights, BadShapes) {
-  expectMessage(complaint("vertices = [[0, 0, 0], [1, 0, 0]]"),
+  expectMessage(lightComplaint("vertices = [[0, 0, 0], [1, 0, 0]]"),
                 {"area_light.lamp.vertices has 2 vertices, expected 3 to 8"});
-  expectMessage(complaint("vertices = [[0,0,0],[1,0,0],[2,1,0],[2,2,0],[2,3,0],[1,4,0],[0,4,0],"
-                          "[-1,3,0],[-1,1,0]]"),
-                {"has 9 vertices"});
-  expectMessage(complaint("vertices = [[0, 0, 0], [1, 0, 0], [1, 1, 0.2], [0, 1, 0]]"),
+  expectMessage(
+      lightComplaint("vertices = [[0,0,0],[1,0,0],[2,1,0],[2,2,0],[2,3,0],[1,4,0],[0,4,0],"
+                     "[-1,3,0],[-1,1,0]]"),
+      {"has 9 vertices"});
+  expectMessage(lightComplaint("vertices = [[0, 0, 0], [1, 0, 0], [1, 1, 0.2], [0, 1, 0]]"),
                 {"is not flat", "vertex 3"});
-  expectMessage(complaint("vertices = [[0, 0, 0], [1, 0, 0], [0.2, 0.2, 0], [0, 1, 0]]"),
+  expectMessage(lightComplaint("vertices = [[0, 0, 0], [1, 0, 0], [0.2, 0.2, 0], [0, 1, 0]]"),
                 {"is not convex"});
-  expectMessage(complaint("vertices = [[0, 0, 0], [1, 0, 0], [nan, 1, 0]]"),
+  expectMessage(lightComplaint("vertices = [[0, 0, 0], [1, 0, 0], [nan, 1, 0]]"),
                 {"area_light.lamp.vertices is nan", "finite"});
-  expectMessage(complaint("vertices = [[0, 0, 0], [1, 0, 0], [2, 0, 0]]"), {"encloses no area"});
-  expectMessage(complaint("vertices = [[0, 0, 0], [0, 0, 0], [1, 1, 0]]"),
+  expectMessage(lightComplaint("vertices = [[0, 0, 0], [1, 0, 0], [2, 0, 0]]"),
+                {"encloses no area"});
+  expectMessage(lightComplaint("vertices = [[0, 0, 0], [0, 0, 0], [1, 1, 0]]"),
                 {"vertices 0 and 1 in the same place"});
-  expectMessage(complaint(""), {"vertices is missing", "rectangle"});
+  expectMessage(lightComplaint(""), {"vertices is missing", "rectangle"});
 }
 
 TEST(AreaLights, StarsAreNotConvex) {
@@ -69,14 +71,14 @@ TEST(AreaLights, StarsAreNotConvex) {
 
 TEST(AreaLights, BadValues) {
   const std::string square = std::string(kSquare) + "\n";
-  expectMessage(complaint(square + "radiance = -1"), {"radiance is -1"});
-  expectMessage(complaint(square + "texture = 'plaid'"), {"texture is 'plaid'", "checker"});
-  expectMessage(complaint(square + "image = 'nowhere.png'"), {"nowhere.png"});
-  expectMessage(complaint(square + "rectangle = { size = 1 }"), {"one way or the other"});
-  expectMessage(complaint("rectangle = { normal = 0 }"), {"normal is 0"});
-  expectMessage(complaint("rectangle = { size = 0 }"), {"size is 0"});
-  expectMessage(complaint("rectangle = { normal = [0, 0, 1], up = [0, 0, 2] }"), {"parallel"});
-  expectMessage(complaint("vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]\ntexture = 'panes'"),
+  expectMessage(lightComplaint(square + "radiance = -1"), {"radiance is -1"});
+  expectMessage(lightComplaint(square + "texture = 'plaid'"), {"texture is 'plaid'", "checker"});
+  expectMessage(lightComplaint(square + "image = 'nowhere.png'"), {"nowhere.png"});
+  expectMessage(lightComplaint(square + "rectangle = { size = 1 }"), {"one way or the other"});
+  expectMessage(lightComplaint("rectangle = { normal = 0 }"), {"normal is 0"});
+  expectMessage(lightComplaint("rectangle = { size = 0 }"), {"size is 0"});
+  expectMessage(lightComplaint("rectangle = { normal = [0, 0, 1], up = [0, 0, 2] }"), {"parallel"});
+  expectMessage(lightComplaint("vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]\ntexture = 'panes'"),
                 {"no parallelogram"});
 }
 

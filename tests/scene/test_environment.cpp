@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "host/core/angles.h"
 #include "host/core/error.h"
 #include "host/scene/environment.h"
 #include "tests/scene/scene_test_tools.h"
@@ -10,7 +10,6 @@
 namespace glintmark {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 // Cones are stored as floats; the sums over half a million pixels are doubles.
 constexpr double kFluxTolerance = 1e-4;
 // A pixel of the 64 x 32 map is 5.6 degrees wide, so a lone one is known to half of that.

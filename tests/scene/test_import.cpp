@@ -11,7 +11,7 @@ namespace glintmark {
 namespace {
 
 // Normals and tangents are floats.
-constexpr double kUnitTolerance = 1e-5;
+constexpr double kImportTolerance = 1e-5;
 
 constexpr const char* kPositions = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 constexpr const char* kUvs = "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
@@ -25,7 +25,7 @@ TEST(Import, QuadBecomesTrianglesWithSmoothNormals) {
   const PartMesh mesh =
       importMesh(folder.write("quad.obj", std::string(kPositions) + kUvs + "f 1/1 2/2 3/3 4/4\n"));
   EXPECT_EQ(mesh.mesh.triangleCount(), 2u);
-  for (const glm::vec3& normal : mesh.mesh.normals) EXPECT_NEAR(normal.z, 1, kUnitTolerance);
+  for (const glm::vec3& normal : mesh.mesh.normals) EXPECT_NEAR(normal.z, 1, kImportTolerance);
   EXPECT_EQ(mesh.mesh.uvs[2], glm::dvec2(1, 1));
 }
 
@@ -154,8 +154,8 @@ TEST(MeshFrames, NoUvAreaStillGivesAFrame) {
   mesh.triangles = {{0, 1, 2}};
   computeTangents(mesh);
   for (const glm::vec4& tangent : mesh.tangents) {
-    EXPECT_NEAR(glm::length(glm::vec3(tangent)), 1, kUnitTolerance);
-    EXPECT_NEAR(tangent.z, 0, kUnitTolerance);
+    EXPECT_NEAR(glm::length(glm::vec3(tangent)), 1, kImportTolerance);
+    EXPECT_NEAR(tangent.z, 0, kImportTolerance);
   }
 }
 
@@ -184,9 +184,9 @@ TEST_P(RealModels, Load) {
   std::size_t wrong = 0;
   for (std::size_t v = 0; v < scene.mesh.positions.size(); ++v) {
     const glm::dvec3 n = scene.mesh.normals[v], t = glm::vec3(scene.mesh.tangents[v]);
-    if (std::abs(glm::length(n) - 1) > kUnitTolerance) ++wrong;
-    if (std::abs(glm::length(t) - 1) > kUnitTolerance) ++wrong;
-    if (std::abs(glm::dot(n, t)) > kUnitTolerance) ++wrong;
+    if (std::abs(glm::length(n) - 1) > kImportTolerance) ++wrong;
+    if (std::abs(glm::length(t) - 1) > kImportTolerance) ++wrong;
+    if (std::abs(glm::dot(n, t)) > kImportTolerance) ++wrong;
   }
   EXPECT_EQ(wrong, 0u);
 }

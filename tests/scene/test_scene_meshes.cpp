@@ -10,7 +10,7 @@ namespace glintmark {
 namespace {
 
 constexpr double kCountTolerance = 0.02;  // the requirement of the benchmark
-constexpr double kUnitTolerance = 1e-5;   // frames are floats
+constexpr double kFrameTolerance = 1e-5;  // frames are floats
 // Isotropic glints need uvs that are about isotropic: a footprint stretched further than this is
 // the chart's doing. Poles and edges may exceed it on little area.
 constexpr double kStretchLimit = 2.5;
@@ -38,10 +38,10 @@ TEST_P(TableOneMeshes, CountAndFrames) {
   std::size_t wrong = 0;
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     const glm::dvec3 n = mesh.normals[v], t = glm::vec3(mesh.tangents[v]);
-    const bool good = std::abs(glm::length(n) - 1) < kUnitTolerance &&
-                      std::abs(glm::length(t) - 1) < kUnitTolerance &&
-                      std::abs(glm::dot(n, t)) < kUnitTolerance &&
-                      std::abs(std::abs(mesh.tangents[v].w) - 1) < kUnitTolerance;
+    const bool good = std::abs(glm::length(n) - 1) < kFrameTolerance &&
+                      std::abs(glm::length(t) - 1) < kFrameTolerance &&
+                      std::abs(glm::dot(n, t)) < kFrameTolerance &&
+                      std::abs(std::abs(mesh.tangents[v].w) - 1) < kFrameTolerance;
     if (!good) ++wrong;
   }
   EXPECT_EQ(wrong, 0u);

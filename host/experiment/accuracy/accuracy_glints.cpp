@@ -164,7 +164,7 @@ AccuracyFigures GlintSweep::figures(std::size_t index, const AccuracyStage& stag
   return figures;
 }
 
-std::vector<AccuracySetting> settings(int device_lanes) {
+std::vector<AccuracySetting> glintSettings(int device_lanes) {
   KnobSettings knobs("glints");
   std::vector<AccuracySetting> all;
   knobs.moveTo(all, {"method", "ka", "grids"});
@@ -194,7 +194,7 @@ std::vector<AccuracySetting> settings(int device_lanes) {
   return all;
 }
 
-std::vector<std::string> knownScenes() {
+std::vector<std::string> glintScenes() {
   std::vector<std::string> scenes;
   for (const Zk16PaperRow& row : kZk16Table1)
     for (const std::string_view view : kZk16Views)
@@ -206,8 +206,8 @@ std::vector<std::string> knownScenes() {
 
 AccuracyKind glintsAccuracy() {
   return {"glints",
-          knobsOf(settings(1)),
-          knownScenes(),
+          knobsOf(glintSettings(1)),
+          glintScenes(),
           {"screen_plane/grazing", "snow/grazing"},
           [](BenchRun& run, const std::vector<std::string>& scenes) {
             const AccuracyNotes notes = {
@@ -216,7 +216,7 @@ AccuracyKind glintsAccuracy() {
                             kTruthFrames, run.options().size, fmt::join(scenes, ", ")),
                 "kernel events, in turn with the default"};
             return std::unique_ptr<AccuracyEffect>(std::make_unique<GlintSweep>(
-                run, "glints", scenes, settings(run.info().width), notes));
+                run, "glints", scenes, glintSettings(run.info().width), notes));
           }};
 }
 

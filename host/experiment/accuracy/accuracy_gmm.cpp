@@ -17,9 +17,9 @@ namespace {
 constexpr int kIterations[] = {1, 2, 4, 8, 16};
 constexpr int kFitReps = 3;
 constexpr int kSupersamples[] = {1, 4, 16, 64};
-constexpr SampledTruthSettings kTruth = {PrincipalMetric::kColourError, 480, 256};
+constexpr SampledTruthSettings kGmmTruth = {PrincipalMetric::kColourError, 480, 256};
 
-std::vector<AccuracySetting> settings() {
+std::vector<AccuracySetting> gmmSettings() {
   KnobSettings knobs("gmm");
   std::vector<AccuracySetting> all;
   const auto add = [&](const std::string& name, bool is_default,
@@ -89,13 +89,13 @@ class GmmSweep : public SampledSweep {
 
 AccuracyKind gmmAccuracy() {
   return {"gmm",
-          knobsOf(settings()),
+          knobsOf(gmmSettings()),
           {"disk/near", "disk/far", "disk/oblique", "armour/near", "armour/far", "desert/near",
            "desert/far"},
           {"disk/far", "disk/oblique", "armour/far", "desert/far"},
           [](BenchRun& run, const std::vector<std::string>& scenes) {
             return std::unique_ptr<AccuracyEffect>(
-                std::make_unique<GmmSweep>(run, "gmm", scenes, settings(), kTruth));
+                std::make_unique<GmmSweep>(run, "gmm", scenes, gmmSettings(), kGmmTruth));
           }};
 }
 

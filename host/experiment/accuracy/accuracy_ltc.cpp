@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kTableSizes[] = {8, 16, 32, LTC_SIZE_DEFAULT, 128};
 constexpr int kMonteCarloSamples[] = {1, 4, 16, 64, 256, 1024};
-constexpr SampledTruthSettings kTruth = {PrincipalMetric::kRelMse, 320, 4096};
+constexpr SampledTruthSettings kLtcTruth = {PrincipalMetric::kRelMse, 320, 4096};
 
 // A fitted table of GGX, from the disk cache if it is there: a table of 128 takes most of a minute.
 std::shared_ptr<const LtcTable> fittedTable(int size, int threads) {
@@ -33,7 +33,7 @@ std::shared_ptr<const LtcTable> fittedTable(int size, int threads) {
   return table;
 }
 
-std::vector<AccuracySetting> settings(int threads) {
+std::vector<AccuracySetting> ltcSettings(int threads) {
   KnobSettings knobs("ltc");
   std::vector<AccuracySetting> all;
   knobs.moveTo(all, {"method"});
@@ -56,14 +56,14 @@ std::vector<AccuracySetting> settings(int threads) {
 
 AccuracyKind ltcAccuracy() {
   return {"ltc",
-          knobsOf(settings(1)),
+          knobsOf(ltcSettings(1)),
           {"area_plane/front", "area_knot/near", "area_knot/middle", "area_knot/far",
            "area_cloth/near", "area_cloth/middle", "area_cloth/far", "area_glass/near",
            "area_glass/middle", "area_glass/far"},
           {"area_plane/front", "area_knot/middle"},
           [](BenchRun& run, const std::vector<std::string>& scenes) {
             return std::unique_ptr<AccuracyEffect>(std::make_unique<SampledSweep>(
-                run, "ltc", scenes, settings(run.threads()), kTruth));
+                run, "ltc", scenes, ltcSettings(run.threads()), kLtcTruth));
           }};
 }
 

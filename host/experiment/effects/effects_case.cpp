@@ -19,24 +19,6 @@ constexpr double kTimedShare = 0.02;
 // The mixed frame against the sum of its effects, the bound of the record.
 constexpr double kWantedMixedOverSum = 1.1;
 
-// Event times of a frame over the repetitions, whole and by launch [ns].
-struct FrameSamples {
-  Samples frame_ns;
-  std::vector<Samples> launch_ns;
-
-  void add(const FrameTimes& times) {
-    frame_ns.push_back(times.shading_event_ns);
-    launch_ns.resize(times.launch_event_ns.size());
-    for (std::size_t i = 0; i < launch_ns.size(); ++i)
-      launch_ns[i].push_back(times.launch_event_ns[i]);
-  }
-};
-
-// An effect alone: a frame with it, less a frame with only what it needs.
-struct Alone {
-  std::size_t with = 0, without = 0;  // indices of timed frames
-};
-
 Samples ratios(const Samples& above, const Samples& below) {
   Samples result;
   for (std::size_t i = 0; i < above.size(); ++i) result.push_back(above[i] / below[i]);
@@ -72,8 +54,26 @@ const std::vector<std::string>& effectsMetrics() {
 
 // Frames that are timed in turn, by number.
 struct EffectsMeasurer::Frames {
+  // Event times of a frame over the repetitions, whole and by launch [ns].
+  struct Timed {
+    Samples frame_ns;
+    std::vector<Samples> launch_ns;
+
+    void add(const FrameTimes& times) {
+      frame_ns.push_back(times.shading_event_ns);
+      launch_ns.resize(times.launch_event_ns.size());
+      for (std::size_t i = 0; i < launch_ns.size(); ++i)
+        launch_ns[i].push_back(times.launch_event_ns[i]);
+    }
+  };
+
+  // An effect alone: a frame with it, less a frame with only what it needs.
+  struct Alone {
+    std::size_t with = 0, without = 0;  // indices of timed frames
+  };
+
   std::vector<FrameRenderer*> renderers;
-  std::vector<FrameSamples> samples;
+  std::vector<Timed> samples;
   std::size_t base = 0;
   std::vector<Alone> alone;
 
@@ -92,7 +92,7 @@ struct EffectsMeasurer::Frames {
       }
   }
   // The sum of the effects' own costs over the whole frame, or in one launch of it.
-  Samples sum(const std::function<const Samples&(const FrameSamples&)>& part) const {
+  Samples sum(const std::function<const Samples&(const Timed&)>& part) const {
     std::vector<const Samples*> with, without;
     for (const Alone& effect : alone) {
       with.push_back(&part(samples[effect.with]));
@@ -275,7 +275,7 @@ void EffectsMeasurer::CaseMaker::addSums(const Frames& frames) {
   if (frames.alone.empty()) return;
   add("mixed_over_sum",
       ratios(frames.samples[0].frame_ns,
-             frames.sum([](const FrameSamples& s) -> const Samples& { return s.frame_ns; })),
+             frames.sum([](const Frames::Timed& s) -> const Samples& { return s.frame_ns; })),
       fmt::format("frame over the sum of its effects alone; wanted at most {}",
                   kWantedMixedOverSum));
   // The material that fares worst; all frames have the same pixel lists.
@@ -284,7 +284,7 @@ void EffectsMeasurer::CaseMaker::addSums(const Frames& frames) {
   std::string name;
   for (std::size_t i = 0; i < planes.lists.size(); ++i) {
     if (planes.lists[i].count < kTimedShare * static_cast<double>(planes.covered_px)) continue;
-    const auto launch = [i](const FrameSamples& s) -> const Samples& { return s.launch_ns[i]; };
+    const auto launch = [i](const Frames::Timed& s) -> const Samples& { return s.launch_ns[i]; };
     const Samples ratio = ratios(launch(frames.samples[0]), frames.sum(launch));
     if (!worst.empty() && summarize(ratio).median <= summarize(worst).median) continue;
     worst = ratio;

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "host/core/angles.h"
 #include "host/experiment/msbrdf/lobe_picture.h"
 #include "host/report/picture/line_chart.h"
 #include "host/report/picture/matrix_picture.h"
@@ -14,8 +14,6 @@
 
 namespace glintmark {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // A set of polynomials under its name.
 struct NamedSet {
@@ -85,7 +83,7 @@ Image errorMatrices(const LobeFits& fits) {
 }
 
 // One lobe cut along the plane of incidence; the light is on the positive side.
-ChartPanel section(const LobeFits& fits, const FittedLobe& f, double incidence_deg) {
+ChartPanel lobeSection(const LobeFits& fits, const FittedLobe& f, double incidence_deg) {
   ChartPanel panel{
       fmt::format("roughness {:.2f}, incidence {:.0f} deg", f.data.alpha, incidence_deg),
       {},
@@ -248,7 +246,7 @@ Image residualPicture(const LobeFits& fits) {
     for (const std::size_t alpha : {std::size_t{2}, std::size_t{6}, std::size_t{10}}) {
       if (alpha < fits.alphas.size() && incidence < fits.incidences_deg.size())
         panels.push_back(
-            section(fits, fits.at(alpha, incidence, 2), fits.incidences_deg[incidence]));
+            lobeSection(fits, fits.at(alpha, incidence, 2), fits.incidences_deg[incidence]));
     }
   const ChartOptions options{.columns = 3,
                              .panel_width_px = 340,

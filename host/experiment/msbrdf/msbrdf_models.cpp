@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 
+#include "host/core/angles.h"
 #include "host/core/stopwatch.h"
 #include "host/experiment/frame_timing.h"
 #include "host/experiment/msbrdf/msbrdf_cases.h"
@@ -17,7 +17,6 @@
 namespace glintmark {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 // Of the furnace integral: its midpoint rule is good to 1e-3.
 constexpr double kFurnaceBound = 1.002;
 

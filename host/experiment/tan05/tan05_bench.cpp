@@ -21,11 +21,11 @@ constexpr int kDistanceSize_px = 250;
 // Of the truth at a distance, where errors of methods lie close together.
 constexpr int kDistanceTruthSpp = 256;
 
-std::vector<std::string> knownScenes() {
+std::vector<std::string> tan05Scenes() {
   return {"disk", "armour", "desert"};
 }
 
-std::vector<std::string> knownViews() {
+std::vector<std::string> tan05Views() {
   return {"near", "far", "oblique"};
 }
 
@@ -35,8 +35,8 @@ bool hasView(const std::string& scene, const std::string& view) {
 
 std::vector<std::string> viewCases(const BenchOptions& options) {
   std::vector<std::string> cases;
-  for (const std::string& scene : selectNames(knownScenes(), options.scenes))
-    for (const std::string& view : selectNames(knownViews(), options.views))
+  for (const std::string& scene : selectNames(tan05Scenes(), options.scenes))
+    for (const std::string& view : selectNames(tan05Views(), options.views))
       if (hasView(scene, view))
         for (const Tan05Method& method : tan05Methods())
           cases.push_back(CaseName{{scene, view, method.name}}.text());
@@ -45,7 +45,7 @@ std::vector<std::string> viewCases(const BenchOptions& options) {
 
 std::vector<std::string> distanceCases(const BenchOptions& options) {
   std::vector<std::string> cases;
-  for (const std::string& scene : selectNames(knownScenes(), options.scenes))
+  for (const std::string& scene : selectNames(tan05Scenes(), options.scenes))
     for (const int distance : kTan05Distances)
       for (const Tan05Method& method : tan05Methods())
         cases.push_back(CaseName{{scene, tan05DistanceView(distance), method.name}}.text());
@@ -114,7 +114,7 @@ void measure(BenchRun& run) {
   if (!run.options().views.empty()) return;
   run.measureCases(tan05Spec().name, distanceCases(run.options()), tan05DistanceMetrics(),
                    [&](const std::string& name) { return measurer.distance(name); });
-  const std::vector<std::string> scenes = selectNames(knownScenes(), run.options().scenes);
+  const std::vector<std::string> scenes = selectNames(tan05Scenes(), run.options().scenes);
   if (std::ranges::find(scenes, kSummaryScene) == scenes.end()) return;
   run.measureCases(tan05Spec().name, tan05KnobCases(), tan05KnobMetrics(),
                    [&](const std::string& name) {
@@ -141,7 +141,7 @@ std::string text(const BenchRun& run) {
 }  // namespace
 
 BenchTable tan05Bench() {
-  return {tan05Spec(), knownScenes(), knownViews(), measure, text};
+  return {tan05Spec(), tan05Scenes(), tan05Views(), measure, text};
 }
 
 }  // namespace glintmark

@@ -24,7 +24,6 @@ constexpr const char* kSummaryView = "near";
 constexpr const char *kLobesKnob = "lobes", *kAnisotropyKnob = "anisotropy";
 constexpr int kLobeCounts[] = {1, 2, 4, 8};
 constexpr int kAnisotropies[] = {1, 2, 4, 8, 16};
-constexpr int kOneLaneReps = 5;
 constexpr int kFitSize_px = 512;
 constexpr double kFraction = 0x1p-32;
 

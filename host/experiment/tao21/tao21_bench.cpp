@@ -23,11 +23,11 @@ constexpr const char* kRoughnessView = "middle";
 constexpr const char* kRoughnessKnob = "roughness";
 constexpr double kRoughness[] = {0.03, 0.1, 0.3, 0.6};
 
-std::vector<std::string> knownScenes() {
+std::vector<std::string> tao21Scenes() {
   return {"area_cloth", "area_knot", "area_glass", kTao21SummaryScene};
 }
 
-std::vector<std::string> knownViews() {
+std::vector<std::string> tao21Views() {
   return {"near", "middle", "far"};
 }
 
@@ -39,9 +39,9 @@ void addMethods(const CaseName& view, std::vector<std::string>& cases) {
 
 std::vector<std::string> viewCases(const BenchOptions& options) {
   std::vector<std::string> cases;
-  for (const std::string& scene : selectNames(knownScenes(), options.scenes)) {
+  for (const std::string& scene : selectNames(tao21Scenes(), options.scenes)) {
     if (scene == kTao21SummaryScene) continue;
-    for (const std::string& view : selectNames(knownViews(), options.views)) {
+    for (const std::string& view : selectNames(tao21Views(), options.views)) {
       addMethods({{scene, view}}, cases);
       if (scene != kRoughnessScene || view != kRoughnessView) continue;
       for (const double roughness : kRoughness)
@@ -90,7 +90,7 @@ void measure(BenchRun& run) {
   ViewMeasurer measurer(run);
   run.measureCases(tao21Spec().name, viewCases(run.options()), tao21Metrics(),
                    [&](const std::string& name) { return measurer(name); });
-  const std::vector<std::string> scenes = selectNames(knownScenes(), run.options().scenes);
+  const std::vector<std::string> scenes = selectNames(tao21Scenes(), run.options().scenes);
   if (std::ranges::find(scenes, kTao21SummaryScene) == scenes.end() || !run.options().views.empty())
     return;
   run.measureCases(tao21Spec().name, tao21CurveCases(), {"shading_ms"},
@@ -113,7 +113,7 @@ std::string text(const BenchRun& run) {
 }  // namespace
 
 BenchTable tao21Bench() {
-  return {tao21Spec(), knownScenes(), knownViews(), measure, text};
+  return {tao21Spec(), tao21Scenes(), tao21Views(), measure, text};
 }
 
 }  // namespace glintmark

@@ -25,7 +25,6 @@ constexpr const char *kLightsKnob = "lights", *kVerticesKnob = "vertices";
 constexpr int kLightCounts[] = {1, 2, 4, 8};
 constexpr int kVertexCounts[] = {3, 4, 5, 6, 7, 8};
 constexpr int kMostMonteCarloSpp = 1024;
-constexpr int kOneLaneReps = 5;
 // Cells of the table that is fitted for the time, per side: the time of 64 x 64 follows from it.
 constexpr int kTimedTableSize = LTC_SIZE_MIN;
 

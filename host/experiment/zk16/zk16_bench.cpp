@@ -16,14 +16,14 @@
 namespace glintmark {
 namespace {
 
-std::vector<std::string> knownScenes() {
+std::vector<std::string> zk16Scenes() {
   std::vector<std::string> scenes;
   std::ranges::transform(kZk16Table1, std::back_inserter(scenes),
                          [](const Zk16PaperRow& row) { return std::string(row.scene); });
   return scenes;
 }
 
-std::vector<std::string> knownViews() {
+std::vector<std::string> zk16Views() {
   return {kZk16Views.begin(), kZk16Views.end()};
 }
 
@@ -38,8 +38,8 @@ std::vector<Record> measureView(BenchRun& run, const Scene& scene, const std::st
 
 void measure(BenchRun& run) {
   std::vector<std::string> cases;
-  for (const std::string& scene : selectNames(knownScenes(), run.options().scenes))
-    for (const std::string& view : selectNames(knownViews(), run.options().views))
+  for (const std::string& scene : selectNames(zk16Scenes(), run.options().scenes))
+    for (const std::string& view : selectNames(zk16Views(), run.options().views))
       cases.push_back(CaseName{{scene, view}}.text());
   std::optional<Scene> scene;  // loaded only if some view of it is left to measure
   run.measureCases(zk16Spec().name, cases, zk16Metrics(), [&](const std::string& name) {
@@ -76,7 +76,7 @@ std::string text(const BenchRun& run) {
 }  // namespace
 
 BenchTable zk16Bench() {
-  return {zk16Spec(), knownScenes(), knownViews(), measure, text};
+  return {zk16Spec(), zk16Scenes(), zk16Views(), measure, text};
 }
 
 }  // namespace glintmark

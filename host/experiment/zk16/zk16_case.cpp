@@ -15,7 +15,7 @@
 namespace glintmark {
 namespace {
 
-constexpr int kOneLaneReps = 3;  // one lane is about ten times as slow
+constexpr int kZk16OneLaneReps = 3;  // one lane is about ten times as slow
 // The counting build does the same arithmetic; other lane counts may round a little differently
 // where the compiler reorders nothing but the device's maths functions differ.
 constexpr double kSameImageRelMse = 1e-9;
@@ -142,7 +142,7 @@ Samples CaseMeasurement::measureSpeedup(FrameRenderer& glint, const Image& refer
   one_lane.lanes = 1;
   const auto narrow = frame(one_lane);
   checkSame(narrow->readRadiance(), reference, "W = 1");
-  return shadeInTurn(*narrow, glint, std::min(run_.options().reps, kOneLaneReps)).ratios();
+  return shadeInTurn(*narrow, glint, std::min(run_.options().reps, kZk16OneLaneReps)).ratios();
 }
 
 void CaseMeasurement::addStaticCounts(const FrameRenderer& glint) {

@@ -5,14 +5,14 @@
 namespace glintmark {
 namespace {
 
-void choose(const ProgramCall& call, KernelConfig& config) {
+void chooseCompensation(const ProgramCall& call, KernelConfig& config) {
   config.metal_compensation =
       call.material.compensation != Compensation::kOff && config.cone_lights && !call.truth;
 }
 
 // The parameters of both effects stand in one struct, which multiscatter adds where both are in.
-void addArguments(FrameResources& frame, const Material& material, const KernelConfig& config,
-                  ShadeArguments& arguments) {
+void addCompensationArguments(FrameResources& frame, const Material& material,
+                              const KernelConfig& config, ShadeArguments& arguments) {
   if (!effectsOf(config).has(Effect::kMultiscatter))
     addScattering(frame, material, config, arguments);
 }
@@ -24,8 +24,8 @@ const EffectModule& compensationEffect() {
       .material_calls =
           [](const Material& material) { return material.compensation != Compensation::kOff; },
       .strip_material = [](Material& material) { material.compensation = Compensation::kOff; },
-      .choose = choose,
-      .add_arguments = addArguments};
+      .choose = chooseCompensation,
+      .add_arguments = addCompensationArguments};
   return module;
 }
 

@@ -5,7 +5,7 @@ namespace glintmark {
 namespace {
 
 // Grooves are glints to the kernels. The ground truth keeps to what glints are on average.
-void choose(const ProgramCall& call, KernelConfig& config) {
+void chooseGlints(const ProgramCall& call, KernelConfig& config) {
   const Material& material = call.material;
   config.glint = material.has_glints && call.options.glints && !call.truth && config.cone_lights;
   config.size_variation = config.glint && material.params.glints.size_variation > 0;
@@ -13,7 +13,8 @@ void choose(const ProgramCall& call, KernelConfig& config) {
   setKnobs(call.options, &KernelConfig::glint, config);
 }
 
-void chooseForAll(std::span<const KernelConfig>, const ShadingOptions& options, KernelConfig& all) {
+void chooseGlintsForAll(std::span<const KernelConfig>, const ShadingOptions& options,
+                        KernelConfig& all) {
   all.size_variation = true;
   setKnobs(options, &KernelConfig::glint, all);
 }
@@ -28,10 +29,10 @@ const EffectModule& glintsEffect() {
           [](Material& material) {
             if (!material.has_grooves) material.has_glints = false;
           },
-      .choose = choose,
+      .choose = chooseGlints,
       .planes = {Plane::kUInt, Plane::kVInt, Plane::kUFrac, Plane::kVFrac, Plane::kDudx,
                  Plane::kDvdx, Plane::kDudy, Plane::kDvdy},
-      .choose_for_all = chooseForAll};
+      .choose_for_all = chooseGlintsForAll};
   return module;
 }
 

@@ -7,7 +7,7 @@
 namespace glintmark {
 namespace {
 
-void choose(const ProgramCall& call, KernelConfig& config) {
+void chooseLtc(const ProgramCall& call, KernelConfig& config) {
   const std::vector<AreaLight>& lights = call.scene.area_lights;
   config.ltc = !lights.empty();
   if (!config.ltc) return;
@@ -23,7 +23,7 @@ void choose(const ProgramCall& call, KernelConfig& config) {
   config.ltc_method = LtcMethod::kOriginal;  // the effect `multiscale` chooses
 }
 
-void chooseForAll(std::span<const KernelConfig> own, const ShadingOptions&, KernelConfig& all) {
+void chooseLtcForAll(std::span<const KernelConfig> own, const ShadingOptions&, KernelConfig& all) {
   if (!own.empty()) all.ggx = own.front().ggx;
 }
 
@@ -39,10 +39,10 @@ const EffectModule& ltcEffect() {
   static const EffectModule module = {
       .scene_calls = [](const Scene& scene) { return !scene.area_lights.empty(); },
       .strip_scene = [](Scene& scene) { scene.area_lights.clear(); },
-      .choose = choose,
+      .choose = chooseLtc,
       .planes = {Plane::kDepth},
       .agree = [](const KernelConfig& a, const KernelConfig& b) { return a.ggx == b.ggx; },
-      .choose_for_all = chooseForAll,
+      .choose_for_all = chooseLtcForAll,
       .add_arguments =
           [](FrameResources& frame, const Material&, const KernelConfig& config,
              ShadeArguments& arguments) { buffersOf(frame).addArguments(config, arguments); },

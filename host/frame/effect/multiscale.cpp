@@ -4,7 +4,7 @@
 namespace glintmark {
 namespace {
 
-void choose(const ProgramCall& call, KernelConfig& config) {
+void chooseMultiscale(const ProgramCall& call, KernelConfig& config) {
   if (call.truth || !config.ltc || !config.normal_map) return;
   config.ltc_method = call.options.ltc_method;
   // Area lights read mean normals, and so do the methods mip and toksvig.
@@ -20,7 +20,7 @@ const EffectModule& multiscaleEffect() {
   static const EffectModule module = {
       .needs = {Effect::kNormals, Effect::kLtc},
       .strip_options = [](ShadingOptions& options) { options.ltc_method = LtcMethod::kOriginal; },
-      .choose = choose,
+      .choose = chooseMultiscale,
       .is_in = [](const KernelConfig& config) { return config.ltc && config.normal_map; },
       .choose_for_all = [](std::span<const KernelConfig>, const ShadingOptions& options,
                            KernelConfig& all) { all.ltc_method = options.ltc_method; }};

@@ -15,22 +15,23 @@ bool hasLobes(const KernelConfig& config) {
 }
 
 // The ground truth keeps to the plain lobes.
-void choose(const ProgramCall& call, KernelConfig& config) {
+void chooseMultiscatter(const ProgramCall& call, KernelConfig& config) {
   if (config.diffuse && config.cone_lights && !call.truth)
     config.multiscatter = static_cast<Multiscatter>(call.material.diffuse_model);
   config.lobe_masking = call.material.diffuse_masking > 0 && hasLobes(config);
 }
 
-bool isIn(const KernelConfig& config) {
+bool hasMultiscatter(const KernelConfig& config) {
   return config.multiscatter != Multiscatter::kOff;
 }
 
-bool agree(const KernelConfig& a, const KernelConfig& b) {
-  return !isIn(a) || !isIn(b) || a.multiscatter == b.multiscatter;
+bool multiscatterAgree(const KernelConfig& a, const KernelConfig& b) {
+  return !hasMultiscatter(a) || !hasMultiscatter(b) || a.multiscatter == b.multiscatter;
 }
 
-void chooseForAll(std::span<const KernelConfig> own, const ShadingOptions&, KernelConfig& all) {
-  const auto user = std::ranges::find_if(own, isIn);
+void chooseMultiscatterForAll(std::span<const KernelConfig> own, const ShadingOptions&,
+                              KernelConfig& all) {
+  const auto user = std::ranges::find_if(own, hasMultiscatter);
   all.multiscatter = user != own.end() ? user->multiscatter : Multiscatter::kRefit;
   all.lobe_masking = hasLobes(all);
 }
@@ -45,8 +46,8 @@ TapBuffers uploadTaps(FrameResources& frame) {
           upload(frame.device, taps.directions, BufferPurpose::kTaps)};
 }
 
-void addArguments(FrameResources& frame, const Material& material, const KernelConfig& config,
-                  ShadeArguments& arguments) {
+void addMultiscatterArguments(FrameResources& frame, const Material& material,
+                              const KernelConfig& config, ShadeArguments& arguments) {
   addScattering(frame, material, config, arguments);
   const auto& taps = frame.kept<TapBuffers>([&] { return uploadTaps(frame); });
   arguments.add("light_taps", taps.lights);
@@ -60,10 +61,10 @@ const EffectModule& multiscatterEffect() {
       .material_calls =
           [](const Material& material) { return material.diffuse_model != DiffuseModel::kLambert; },
       .strip_material = [](Material& material) { material.diffuse_model = DiffuseModel::kLambert; },
-      .choose = choose,
-      .agree = agree,
-      .choose_for_all = chooseForAll,
-      .add_arguments = addArguments};
+      .choose = chooseMultiscatter,
+      .agree = multiscatterAgree,
+      .choose_for_all = chooseMultiscatterForAll,
+      .add_arguments = addMultiscatterArguments};
   return module;
 }
 

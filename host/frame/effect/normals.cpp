@@ -9,7 +9,7 @@ namespace glintmark {
 namespace {
 
 // The ground truth reads the map's finest level.
-void choose(const ProgramCall& call, KernelConfig& config) {
+void chooseNormals(const ProgramCall& call, KernelConfig& config) {
   const auto& source = call.material.normal_map;
   config.normal_map = source.has_value();
   if (!config.normal_map) return;
@@ -28,12 +28,13 @@ void choose(const ProgramCall& call, KernelConfig& config) {
     config.anisotropy = 1;
 }
 
-bool agree(const KernelConfig& a, const KernelConfig& b) {
+bool normalsAgree(const KernelConfig& a, const KernelConfig& b) {
   return !a.normal_map || !b.normal_map || a.lobes == b.lobes;
 }
 
 // As for a material with a map, whether the scene has one or not.
-void chooseForAll(std::span<const KernelConfig> own, const ShadingOptions&, KernelConfig& all) {
+void chooseNormalsForAll(std::span<const KernelConfig> own, const ShadingOptions&,
+                         KernelConfig& all) {
   const auto user = std::ranges::find(own, true, &KernelConfig::normal_map);
   if (user != own.end()) all.lobes = user->lobes;
 }
@@ -67,8 +68,8 @@ SharedMap makeSharedMap(FrameResources& frame, const KernelConfig& config) {
                  : upload(frame.device, std::vector<float4>{}, BufferPurpose::kNormalMaps)};
 }
 
-void addArguments(FrameResources& frame, const Material& material, const KernelConfig& config,
-                  ShadeArguments& arguments) {
+void addNormalsArguments(FrameResources& frame, const Material& material,
+                         const KernelConfig& config, ShadeArguments& arguments) {
   if (config.all_materials) {
     const SharedMap& map = frame.kept<SharedMap>([&] { return makeSharedMap(frame, config); });
     arguments.add("map", map.layouts);
@@ -86,12 +87,12 @@ const EffectModule& normalsEffect() {
   static const EffectModule module = {
       .material_calls = [](const Material& material) { return material.normal_map.has_value(); },
       .strip_material = [](Material& material) { material.normal_map.reset(); },
-      .choose = choose,
+      .choose = chooseNormals,
       .planes = {Plane::kUFrac, Plane::kVFrac, Plane::kDudx, Plane::kDvdx, Plane::kDudy,
                  Plane::kDvdy},
-      .agree = agree,
-      .choose_for_all = chooseForAll,
-      .add_arguments = addArguments};
+      .agree = normalsAgree,
+      .choose_for_all = chooseNormalsForAll,
+      .add_arguments = addNormalsArguments};
   return module;
 }
 

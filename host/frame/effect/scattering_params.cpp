@@ -4,16 +4,15 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <vector>
 
+#include "host/core/angles.h"
 #include "host/frame/effects.h"
 #include "host/ocl/upload.h"
 
 namespace glintmark {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kLeastRoom = 1e-6;  // of a surface so smooth that nothing is scattered twice
 
 // The polynomial through a function on [0, 1] at Chebyshev points, by Newton's divided differences.

@@ -20,7 +20,7 @@ constexpr std::string_view kFilePrefix = "cells_";
 
 constexpr DisplayColour kUncovered = {0.16f, 0.16f, 0.16f};
 constexpr DisplayColour kUnlit = {0.35f, 0.35f, 0.35f};
-constexpr int kIntervals = 8;  // on the colour bar: 8, 15, 22, ... 64 on the fixed scale
+constexpr int kCellIntervals = 8;  // on the colour bar: 8, 15, 22, ... 64 on the fixed scale
 
 constexpr int kLegendMinWidth = 320;
 
@@ -96,8 +96,8 @@ void drawGreys(Image& canvas, int first_x, int baseline_y, const Greys& greys, i
 }
 
 // Title, statistics, greys and the colour bar; its top edge at y.
-void drawLegend(Image& canvas, int y, const HeatmapRange& range, const std::string& title,
-                const std::string& statistics, const Greys& greys) {
+void drawHeatLegend(Image& canvas, int y, const HeatmapRange& range, const std::string& title,
+                    const std::string& statistics, const Greys& greys) {
   const LegendLayout layout(canvas.width);
   const int width = canvas.width - 2 * layout.margin;
   const TextStyle bold{.size_px = layout.title_size, .weight = TextWeight::kBold};
@@ -107,7 +107,7 @@ void drawLegend(Image& canvas, int y, const HeatmapRange& range, const std::stri
   drawGreys(canvas, layout.margin + textWidth(statistics, soft) + layout.text,
             y + layout.statistics, greys, layout.text);
   drawColourScale(canvas, layout.margin, y + layout.bar, width,
-                  {.low = range.low, .high = range.high, .intervals = kIntervals}, layout.text);
+                  {.low = range.low, .high = range.high, .intervals = kCellIntervals}, layout.text);
 }
 
 std::string statisticsText(const CellDistribution& distribution, std::size_t guard_hits) {
@@ -145,8 +145,8 @@ Image heatmapPicture(const Image& cells, const HeatmapOptions& options) {
   const int width = std::max(cells.width, kLegendMinWidth);
   Image canvas = blankCanvas(width, cells.height + LegendLayout(width).height);
   paste(heatmapColours(cells, range), canvas, 0, 0);
-  drawLegend(canvas, cells.height, range, options.title,
-             statisticsText(distribution, options.guard_hits), greysOf({&cells}));
+  drawHeatLegend(canvas, cells.height, range, options.title,
+                 statisticsText(distribution, options.guard_hits), greysOf({&cells}));
   return canvas;
 }
 
@@ -205,8 +205,8 @@ Image heatmapStrip(const std::vector<Image>& cells, const std::vector<std::strin
     x += cells[i].width;
     pictures.push_back(&cells[i]);
   }
-  drawLegend(canvas, images_height + captions_height, range, title,
-             fmt::format("min {:.0f}    max {:.0f}", all.min, all.max), greysOf(pictures));
+  drawHeatLegend(canvas, images_height + captions_height, range, title,
+                 fmt::format("min {:.0f}    max {:.0f}", all.min, all.max), greysOf(pictures));
   return canvas;
 }
 

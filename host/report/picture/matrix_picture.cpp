@@ -11,7 +11,7 @@
 namespace glintmark {
 namespace {
 
-constexpr int kIntervals = 5;  // on the colour bar
+constexpr int kMatrixIntervals = 5;  // on the colour bar
 
 // Sizes in pixels for text of one size.
 struct Layout {
@@ -78,7 +78,7 @@ Image matrixPicture(const std::vector<MatrixPanel>& panels, const MatrixPictureO
            fitted(bold, options.title, bar_width));
   drawColourScale(
       canvas, layout.left, layout.bar, bar_width,
-      {.low = options.low, .high = options.high, .intervals = kIntervals, .decimals = 2},
+      {.low = options.low, .high = options.high, .intervals = kMatrixIntervals, .decimals = 2},
       layout.text);
   return canvas;
 }
