@@ -94,8 +94,9 @@ class Program {
 
 /// Builds programs from the kernel folder and keeps them in memory and on disk
 /// ($GLINTMARK_CACHE_DIR, else $XDG_CACHE_HOME/glintmark, else ~/.cache/glintmark; "off" turns the
-/// disk cache off, GLINTMARK_PROGRAM_CACHE=off for programs alone). The disk key covers every file of the kernel folder, the options, and the
-/// device, platform and driver; corrupt or stale entries are rebuilt silently, never fatal.
+/// disk cache off, GLINTMARK_PROGRAM_CACHE=off for programs alone). The disk key covers every file
+/// of the kernel folder, the options, and the device, platform and driver; corrupt or stale entries
+/// are rebuilt silently, never fatal.
 /// A build failure throws Error naming the file and the first error, and leaves a copy
 /// of the sources, the options and the full log in a folder that the message names.
 class ProgramCache {
