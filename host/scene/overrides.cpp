@@ -93,7 +93,10 @@ void applyOverride(toml::table& root, const std::string& override_text, const st
   std::string where = "the scene";
   for (std::size_t i = 0; i + 1 < steps.size(); ++i) {
     node = &descend(*node, steps[i], where, source);
-    where = i == 0 ? steps[i] : where + "." + steps[i];
+    if (i == 0)
+      where = steps[i];
+    else
+      where.append(".").append(steps[i]);
   }
   const std::string& last = steps.back();
   if (toml::array* array = node->as_array()) {

@@ -178,10 +178,10 @@ Finding mapped(const CheckContext& context, double half_deg) {
   Finding finding(half_deg <= kConeNarrow_deg ? kNarrowConeTolerance : kWideConeTolerance);
   const glm::dvec3 n = glm::normalize(glm::dvec3(0.3, -0.2, 1));
   const glm::dvec3 t = glm::normalize(glm::dvec3(n.z, 0, -n.x)), b = glm::cross(n, t);
-  const auto toLobe = [&](const glm::dvec3& w) {
+  const auto to_lobe = [&](const glm::dvec3& w) {
     return glm::dvec3(glm::dot(t, w), glm::dot(b, w), glm::dot(n, w));
   };
-  const auto toMesh = [&](const glm::dvec3& w) { return w.x * t + w.y * b + w.z * n; };
+  const auto to_mesh = [&](const glm::dvec3& w) { return w.x * t + w.y * b + w.z * n; };
   unsigned seed = 200;
   for (const double alpha : {0.01, 0.03, 0.1, 0.3, 0.6, 1.0}) {
     std::vector<ConeCase> cases = randomCones(glm::dvec2(alpha), half_rad, ++seed);
@@ -189,7 +189,7 @@ Finding mapped(const CheckContext& context, double half_deg) {
     std::vector<float> in(9 * n_padded), out(3 * n_padded);
     for (std::size_t i = 0; i < n_padded; ++i) {
       const ConeCase& c = cases[std::min(i, cases.size() - 1)];
-      const glm::dvec3 vectors[] = {toMesh(c.axis), toMesh(c.view), n};
+      const glm::dvec3 vectors[] = {to_mesh(c.axis), to_mesh(c.view), n};
       for (std::size_t k = 0; k < 9; ++k)
         in[k * n_padded + i] = static_cast<float>(vectors[k / 3][static_cast<int>(k % 3)]);
     }
@@ -208,7 +208,7 @@ Finding mapped(const CheckContext& context, double half_deg) {
         .launch(args, n_padded / static_cast<std::size_t>(context.lanes), kLocalSize);
     output.read(out.data(), out.size() * 4);
     for (std::size_t i = 0; i < cases.size(); ++i) {
-      const ConeCase c = {toLobe(toMesh(cases[i].axis)), toLobe(toMesh(cases[i].view))};
+      const ConeCase c = {to_lobe(to_mesh(cases[i].axis)), to_lobe(to_mesh(cases[i].view))};
       const double want = reference::coneRadiance({c.axis, half_rad}, c.view, glm::dvec2(alpha),
                                                   glm::dvec3(1), kConeSamples)
                               .x;
@@ -258,8 +258,9 @@ Finding glints(const CheckContext& context, double half_deg) {
   for (std::size_t i = 0; i < frame.pixels.size(); ++i) {
     HandMadePixel& pixel = frame.pixels[i];
     pixel.frame = flatFrame();
-    pixel.footprint.u = fixedCoordinate(0.0123 * static_cast<double>(i % 256));
-    pixel.footprint.v = fixedCoordinate(0.0117 * static_cast<double>(i / 256));
+    const std::size_t column = i % 256, row = i / 256;
+    pixel.footprint.u = fixedCoordinate(0.0123 * static_cast<double>(column));
+    pixel.footprint.v = fixedCoordinate(0.0117 * static_cast<double>(row));
     pixel.footprint.duv_dx = {3e-3, 1e-3};
     pixel.footprint.duv_dy = {-1e-3, 4e-3};
   }

@@ -18,7 +18,8 @@ HandMadeFrame spreadPixels(std::size_t count, double size, double aspect) {
   frame.pixels.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     HandMadePixel& pixel = frame.pixels[i];
-    const double x = static_cast<double>(i % 512), y = static_cast<double>(i / 512);
+    const std::size_t column = i % 512, row = i / 512;
+    const auto x = static_cast<double>(column), y = static_cast<double>(row);
     // Steps of odd fractions keep the pixels at all places within their cells.
     pixel.footprint.u = fixedCoordinate(size * aspect * 2.37 * x - 3);
     pixel.footprint.v = fixedCoordinate(size * aspect * 2.61 * y + 5);
