@@ -105,6 +105,7 @@ void printComparison(const LtcErrors& ours, const LtcErrors& theirs) {
 
 void writeErrorPicture(const std::vector<MeasuredTable>& tables, const std::string& file) {
   std::vector<MatrixPanel> panels;
+  panels.reserve(tables.size());
   for (const MeasuredTable& table : tables) panels.push_back({table.name, table.nodes.values});
   const LtcErrors& first = tables.front().nodes;
   writePng(

@@ -33,6 +33,7 @@ double measureNsPerCell(Device& device, const Scene& scene, const View& view,
   renderer.prepare();
   renderer.shade();  // builds, and compiles on first use
   std::vector<double> times_ns;
+  times_ns.reserve(kReps);
   for (int rep = 0; rep < kReps; ++rep) times_ns.push_back(renderer.shade().shading_event_ns);
   const double cells = counts.mean * static_cast<double>(counts.glint_px);
   return cells > 0 ? summarize(times_ns).median / cells : 0;

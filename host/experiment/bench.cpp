@@ -24,6 +24,7 @@ std::vector<BenchTable> benchTables() {
 
 std::vector<std::string> namesOf(const std::vector<BenchTable>& tables) {
   std::vector<std::string> names;
+  names.reserve(tables.size());
   for (const BenchTable& table : tables) names.push_back(table.spec.name);
   return names;
 }
@@ -81,6 +82,7 @@ int runBench(const Session& session, const std::vector<std::string>& names,
   BenchRun run(session, options);
   for (const BenchTable& table : tables) table.measure(run);
   std::vector<std::string> texts;
+  texts.reserve(tables.size());
   for (const BenchTable& table : tables) texts.push_back(table.text(run));
   if (!options.trace.empty()) writeTrace(options.trace, run.info());
   return run.finish(fmt::format("{}", fmt::join(texts, "\n")));

@@ -28,7 +28,7 @@ fs::path dataFolder() {
 }  // namespace
 
 fs::path findDataFile(const std::string& name) {
-  const fs::path file = dataFolder() / name;
+  fs::path file = dataFolder() / name;
   std::error_code error;
   if (fs::is_regular_file(file, error)) return file;
   throw Error(fmt::format("no data file {}; set GLINTMARK_TABLES to the folder that has it",

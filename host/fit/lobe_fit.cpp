@@ -75,8 +75,8 @@ struct PolynomialCost {
     const double order = data.order == 3 ? c[kThird] * square / (square + c[kKnee]) : 1.0;
     for (int row = 0; row < LobeData::kCosines; ++row) {
       double mean = 0;
-      for (int column = 0; column < LobeData::kAzimuths; ++column)
-        mean += data.energy[static_cast<std::size_t>(row * LobeData::kAzimuths + column)];
+      const auto first = data.energy.begin() + row * LobeData::kAzimuths;
+      for (int column = 0; column < LobeData::kAzimuths; ++column) mean += first[column];
       mean /= LobeData::kAzimuths;
       const double cosine = LobeData::cosine(row);
       residuals[row] = order * maskingFactor(c[kMasking], data.alpha, data.mu_in, cosine) *
@@ -129,10 +129,9 @@ LobeData makeLobeData(const Simulation& simulation, int order) {
     for (int row = 0; row < static_cast<int>(HF_COSINES); ++row)
       for (int column = 0; column < 2 * kHalf; ++column) {
         const int folded = column < kHalf ? column : 2 * kHalf - 1 - column;
-        data.energy[static_cast<std::size_t>(row / kRows * LobeData::kAzimuths +
-                                             folded / kColumns)] +=
-            static_cast<double>(simulation.cell(0, o, static_cast<std::size_t>(row),
-                                                static_cast<std::size_t>(column)));
+        const int cell = row / kRows * LobeData::kAzimuths + folded / kColumns;
+        data.energy[static_cast<std::size_t>(cell)] += static_cast<double>(
+            simulation.cell(0, o, static_cast<std::size_t>(row), static_cast<std::size_t>(column)));
       }
   const double rays = static_cast<double>(simulation.rays_done);
   for (double& energy : data.energy) {

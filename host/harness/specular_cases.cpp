@@ -50,6 +50,7 @@ std::vector<glm::vec3> shadeSpecular(KernelBench& bench, const AreaLight& light,
   probe.table = shippedGgx();
   probe.width = lanes;
   std::vector<HandMadePoint> points;
+  points.reserve(cases.size());
   for (const SpecularCase& c : cases) points.push_back(c.point);
   return lightPoints(bench, probe, points);
 }

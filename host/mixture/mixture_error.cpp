@@ -95,7 +95,7 @@ InterpolationError measureInterpolation(const NormalMap& map, const NormalMixtur
 double measureMisalignment(const NormalMixtures& mixtures, int level) {
   const int width = mixtures.moments.levelWidth(level);
   const int height = mixtures.moments.levelHeight(level);
-  const auto addedSpread = [&](const float4* p, const float4* q) {
+  const auto added_spread = [&](const float4* p, const float4* q) {
     double sum = 0;
     for (int i = 0; i < mixtures.lobes; ++i) {
       const double a = p[i].x, b = q[i].x;
@@ -109,8 +109,8 @@ double measureMisalignment(const NormalMixtures& mixtures, int level) {
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const float4* own = mixtures.moments.at(level, x, y);
-      if (x + 1 < width) sum += addedSpread(own, mixtures.moments.at(level, x + 1, y)), ++pairs;
-      if (y + 1 < height) sum += addedSpread(own, mixtures.moments.at(level, x, y + 1)), ++pairs;
+      if (x + 1 < width) sum += added_spread(own, mixtures.moments.at(level, x + 1, y)), ++pairs;
+      if (y + 1 < height) sum += added_spread(own, mixtures.moments.at(level, x, y + 1)), ++pairs;
     }
   }
   return pairs > 0 ? std::sqrt(sum / pairs) : 0;

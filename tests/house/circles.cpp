@@ -22,7 +22,7 @@ std::string way(const Graph& graph, const std::string& from, const std::string& 
   }
   if (!before.contains(to)) return "";
   std::string text = to;
-  for (std::string at = before[to]; !at.empty(); at = before[at]) text = at + " -> " + text;
+  for (std::string at = before[to]; !at.empty(); at = before[at]) text.insert(0, at + " -> ");
   return text;
 }
 
@@ -31,8 +31,8 @@ void addCircles(std::vector<std::string>& found, const Graph& graph, const Graph
   std::vector<std::pair<std::string, std::string>> all;  // a node and a circle from it
   for (const auto& [from, targets] : edges)
     for (const std::string& to : targets) {
-      const std::string back = way(graph, to, from);
-      if (!back.empty()) all.emplace_back(from, from + " -> " + back);
+      std::string back = way(graph, to, from);
+      if (!back.empty()) all.emplace_back(from, back.insert(0, from + " -> "));
     }
   const auto arrows = [](const auto& circle) { return std::ranges::count(circle.second, '>'); };
   std::ranges::stable_sort(all, {}, arrows);

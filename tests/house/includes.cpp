@@ -1,4 +1,6 @@
 // What may include what.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <sstream>
@@ -117,7 +119,7 @@ std::string resolve(const std::string& from, const Include& include, const Files
   if (files.contains(include.name)) return include.name;
   if (!include.quoted || partOf(from, 0) != "kernels") return "";
   for (const std::string& folder : {folderOf(from), std::string("kernels")}) {
-    const auto path = (std::filesystem::path(folder) / include.name).lexically_normal().string();
+    auto path = (std::filesystem::path(folder) / include.name).lexically_normal().string();
     if (files.contains(path)) return path;
   }
   return "";
@@ -135,8 +137,8 @@ std::vector<std::string> includeFaults(const Files& files, const Order& order) {
           !order.generated.contains(include.name))
         fault = "there is no such file below the project's root";
       if (!fault.empty())
-        faults.push_back(path + ":" + std::to_string(include.line) + ": includes " + include.name +
-                         ": " + fault);
+        faults.push_back(
+            fmt::format("{}:{}: includes {}: {}", path, include.line, include.name, fault));
     }
   }
   return faults;

@@ -123,7 +123,7 @@ TEST_F(BufferTest, DeviceKnowsWhatIsHeldAndWhatWas) {
   {
     const Buffer more(device_, 400, BufferPurpose::kProbe, "words"),
         other(device_, 40, BufferPurpose::kLights);
-    const Buffer same = more;  // a second handle is no second buffer
+    const Buffer same = more;  // NOLINT: a second handle is no second buffer
     EXPECT_EQ(device_.bufferUse().by_purpose.at(BufferPurpose::kProbe).held, 4400u);
     EXPECT_EQ(device_.bufferUse().total.held, 4440u);
   }

@@ -56,7 +56,7 @@ class KernelHeaders : public OclTest {
   std::string includedAlone(const fs::path& header, const KernelConfig& config) {
     const std::string name = fmt::format("alone{}.cl", programs_++);
     writeFile(kernels_ / name, fmt::format("#include \"{}\"\n", header.string()));
-    const std::string message = errorOf([&] {
+    std::string message = errorOf([&] {
       ProgramCache cache(device_);
       cache.get(name, config);
     });
@@ -121,7 +121,7 @@ TEST_F(KernelHeaders, TemplatesSayWhatTheyWant) {
 TEST(KernelFolder, HeadersAreGuardedByTheirName) {
   for (const fs::path& header : headers()) {
     std::string name = header.filename().replace_extension();
-    if (name.starts_with("method_")) name = header.parent_path().string() + "_" + name;
+    if (name.starts_with("method_")) name.insert(0, header.parent_path().string() + "_");
     std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::toupper(c); });
     const std::string text = readFile(kKernels / header);
     const std::string_view suffix = header.extension() == ".h" ? "_H" : "_CLH";

@@ -39,7 +39,8 @@ std::size_t expectAttributes(const TriangleMesh& mesh, const Camera& camera,
   std::size_t checked = 0;
   EXPECT_TRUE(allFinite(planes));
   forEachPixel(planes, [&](std::size_t entry, int x, int y, std::uint32_t) {
-    const std::uint32_t id = ids[static_cast<std::size_t>(y * camera.width_px + x)];
+    const int at = y * camera.width_px + x;
+    const std::uint32_t id = ids[static_cast<std::size_t>(at)];
     const PlaneHit hit = hitPlane(mesh, id, camera, x, y);
     if (edgeDistance(hit, camera.near_plane) < kInside_px || testing::Test::HasFailure()) return;
     ++checked;

@@ -38,7 +38,8 @@ TEST(PixelLists, EveryCoveredPixelOnceUnderItsMaterial) {
   std::set<std::pair<int, int>> seen;
   forEachPixel(planes, [&](std::size_t, int x, int y, std::uint32_t material) {
     EXPECT_TRUE(seen.insert({x, y}).second);
-    const std::uint32_t id = ids[static_cast<std::size_t>(y * camera.width_px + x)];
+    const int at = y * camera.width_px + x;
+    const std::uint32_t id = ids[static_cast<std::size_t>(at)];
     ASSERT_NE(id, kNoTriangle);
     EXPECT_EQ(mesh.triangle_materials[id], material);
   });

@@ -124,7 +124,8 @@ TEST(HardTriangles, PastTheGuardBandTheEdgeIsExact) {
   Rasterizer(1).renderVisibility(mesh, camera, false, ids);
   for (int y = 0; y < 64; ++y)
     for (int x = 0; x < 64; ++x) {
-      const bool covered = ids[static_cast<std::size_t>(64 * y + x)] == 0;
+      const int at = 64 * y + x;
+      const bool covered = ids[static_cast<std::size_t>(at)] == 0;
       if (x + y == 63) continue;
       EXPECT_EQ(covered, x + y > 63) << x << ", " << y;
     }

@@ -156,8 +156,8 @@ TEST(Watertight, AcrossTheNearPlane) {
   for (int y = 0; y < camera.height_px; ++y) {
     int changes = 0;
     for (int x = 1; x < camera.width_px; ++x) {
-      const auto at = static_cast<std::size_t>(y * camera.width_px + x);
-      changes += counts[at] != counts[at - 1];
+      const int at = y * camera.width_px + x;
+      changes += counts[static_cast<std::size_t>(at)] != counts[static_cast<std::size_t>(at - 1)];
     }
     EXPECT_LE(changes, 2) << "row " << y;
   }

@@ -90,18 +90,18 @@ TEST(Finding, KeepsTheFirstConditionThatDoesNotHold) {
 }
 
 TEST(RunCheck, ErrorsAreFailuresAndSkipsAreNot) {
-  const auto verdictOf = [](std::function<Finding(const CheckContext&)> run) {
+  const auto verdict_of = [](std::function<Finding(const CheckContext&)> run) {
     return runCheck({"name", "measure", std::move(run)}, {testBench(), 1});
   };
   const CheckResult thrown =
-      verdictOf([](const CheckContext&) -> Finding { throw Error("it broke"); });
+      verdict_of([](const CheckContext&) -> Finding { throw Error("it broke"); });
   EXPECT_EQ(thrown.verdict, Verdict::kFail);
   EXPECT_EQ(thrown.note, "it broke");
   const CheckResult skipped =
-      verdictOf([](const CheckContext&) { return Finding::skipped("no such device"); });
+      verdict_of([](const CheckContext&) { return Finding::skipped("no such device"); });
   EXPECT_EQ(skipped.verdict, Verdict::kSkipped);
   EXPECT_EQ(skipped.note, "no such device");
-  EXPECT_THROW(verdictOf([](const CheckContext&) -> Finding { throw DeviceError("gone"); }),
+  EXPECT_THROW(verdict_of([](const CheckContext&) -> Finding { throw DeviceError("gone"); }),
                DeviceError);
 }
 

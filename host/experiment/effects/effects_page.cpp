@@ -31,8 +31,9 @@ std::string matrixHtml(std::span<const Record> records, const std::vector<std::s
     rows.push_back({rowNameHtml(escapeHtml(effects[row]))});
     for (std::size_t column = 0; column < effects.size(); ++column) {
       const std::string &a = effects[row], &b = effects[column];
-      const Record* record = CaseRecords(records, row == column ? a : a + "+" + b).find(metric);
-      if (record == nullptr) record = CaseRecords(records, b + "+" + a).find(metric);
+      const Record* record =
+          CaseRecords(records, row == column ? a : fmt::format("{}+{}", a, b)).find(metric);
+      if (record == nullptr) record = CaseRecords(records, fmt::format("{}+{}", b, a)).find(metric);
       any = any || record != nullptr;
       rows.back().push_back(heatCell(record));
     }

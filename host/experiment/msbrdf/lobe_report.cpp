@@ -48,7 +48,8 @@ double cellAt(const LobeData& data, double cosine, double azimuth) {
       std::clamp(static_cast<int>((1 - cosine) * LobeData::kCosines), 0, LobeData::kCosines - 1);
   const int column =
       std::clamp(static_cast<int>(folded / kPi * LobeData::kAzimuths), 0, LobeData::kAzimuths - 1);
-  return data.energy[static_cast<std::size_t>(row * LobeData::kAzimuths + column)];
+  const int cell = row * LobeData::kAzimuths + column;
+  return data.energy[static_cast<std::size_t>(cell)];
 }
 
 std::string fixed(double value) {
@@ -94,8 +95,8 @@ ChartPanel lobeSection(const LobeFits& fits, const FittedLobe& f, double inciden
     for (int row = 0; row < LobeData::kCosines; ++row) {
       const double angle_deg = std::acos(LobeData::cosine(row)) * 180 / kPi;
       simulated.x.push_back(column == 0 ? angle_deg : -angle_deg);
-      simulated.y.push_back(
-          f.data.energy[static_cast<std::size_t>(row * LobeData::kAzimuths + column)]);
+      const int cell = row * LobeData::kAzimuths + column;
+      simulated.y.push_back(f.data.energy[static_cast<std::size_t>(cell)]);
     }
   panel.series.push_back(std::move(simulated));
   const auto add = [&](const char* name, int colour, const auto& model) {

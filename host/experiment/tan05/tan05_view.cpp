@@ -57,6 +57,7 @@ std::unique_ptr<FrameRenderer> methodFrame(BenchRun& run, const Tan05Scene& scen
 template <typename Render>
 std::vector<Image> zoomFrames(const Tan05Scene& scene, const View& view, Render render) {
   std::vector<Image> frames;
+  frames.reserve(kZoomFrames);
   for (int i = 0; i < kZoomFrames; ++i)
     frames.push_back(display(render(atDistance(view, std::pow(kZoomStep, i))), scene.scene));
   return frames;

@@ -26,6 +26,7 @@ ShadingOptions methodOptions(ShadingOptions options, int method) {
 std::vector<Samples> measureTimes(BenchRun& run, const Scene& scene, const View& view,
                                   const Tao21Settings& settings) {
   std::vector<std::unique_ptr<FrameRenderer>> renderers;
+  renderers.reserve(kMethodCount);
   for (int m = 0; m < kMethodCount; ++m)
     renderers.push_back(preparedFrame(run, scene, view, methodOptions(settings.shading, m)));
   return shadeInTurn(renderers, run.options().reps);
