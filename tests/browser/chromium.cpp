@@ -35,7 +35,7 @@ std::string findChromium() {
   const char* path = std::getenv("PATH");
   std::istringstream folders(path == nullptr ? "" : path);
   for (std::string folder; std::getline(folders, folder, ':');) {
-    const std::string program = folder + "/chromium";
+    std::string program = folder + "/chromium";
     if (access(program.c_str(), X_OK) == 0) return program;
   }
   return "";
@@ -61,6 +61,7 @@ BrowserResult runChromium(const std::filesystem::path& page,
   words.insert(words.end(), options.begin(), options.end());
   words.push_back("file://" + page.string());
   std::vector<char*> argv;
+  argv.reserve(words.size() + 1);
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
 

@@ -57,7 +57,7 @@ class Page : public testing::Test {
   }
 
   std::filesystem::path screenshot(const std::string& name, std::vector<std::string> options) {
-    const std::filesystem::path file = folder_ / name;
+    std::filesystem::path file = folder_ / name;
     options.push_back("--screenshot=" + file.string());
     options.push_back("--window-size=1200,2400");
     const BrowserResult result = runChromium(page_, options);

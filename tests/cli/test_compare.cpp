@@ -12,7 +12,7 @@ namespace {
 class Compare : public testing::Test {
  protected:
   std::string write(const std::string& name, const Results& results) {
-    const std::string file = folder_ / name;
+    std::string file = folder_ / name;
     writeFile(file, toJson(results));
     return file;
   }

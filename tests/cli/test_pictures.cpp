@@ -15,7 +15,7 @@ namespace {
 
 ProcessResult runQuietly(std::vector<std::string> arguments) {
   arguments.push_back("--quiet");
-  const ProcessResult result = runGlintmark(arguments);
+  ProcessResult result = runGlintmark(arguments);
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.err, "");
   return result;

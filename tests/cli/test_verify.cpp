@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 // A copy of the kernels in which `from`, in `file`, became `to`.
 fs::path changedKernels(const TempFolder& folder, const std::string& file, const std::string& from,
                         const std::string& to) {
-  const fs::path kernels = folder / "kernels";
+  fs::path kernels = folder / "kernels";
   fs::copy(GLINTMARK_SOURCE_DIR "/kernels", kernels, fs::copy_options::recursive);
   std::string text = readFile(kernels / file);
   const std::size_t at = text.find(from);

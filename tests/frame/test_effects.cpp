@@ -219,13 +219,13 @@ TEST(Specialisation, NeighboursEffectsLeaveNoInstruction) {
   if (!alone) GTEST_SKIP() << "the device does not give its machine code";
   const EffectSet surfaces = kEverything.without({Effect::kLtc, Effect::kMultiscale});
   // Other planes stand before those that are read: their places are other constants.
-  const auto expectAlike = [&](EffectSet set, const char* name) {
+  const auto expect_alike = [&](EffectSet set, const char* name) {
     EXPECT_NEAR(static_cast<double>(counted(set, name)->kernel_instructions),
                 static_cast<double>(alone->kernel_instructions), kPlaneSlotInstructions)
         << name;
   };
-  expectAlike(surfaces, "smooth");
-  expectAlike({}, "rough");
+  expect_alike(surfaces, "smooth");
+  expect_alike({}, "rough");
   const double most = static_cast<double>(alone->kernel_instructions) + kPlaneSlotInstructions;
   for (const char* name : {"glints", "grooves", "mapped", "rough", "metal"})
     EXPECT_GT(static_cast<double>(counted(surfaces, name)->kernel_instructions), most) << name;

@@ -165,9 +165,11 @@ std::vector<double> planeImage(GlintMethod method, glm::dvec2 shift_px, double z
   const ShadedPixels shaded = shadePixels(testBench(), frame, config);
   std::vector<double> image(kSize * kSize);
   for (int y = 0; y < fine; ++y)
-    for (int x = 0; x < fine; ++x)
-      image[static_cast<std::size_t>(y / samples * kSize + x / samples)] +=
-          shaded.radiance[static_cast<std::size_t>(y * fine + x)].x / (samples * samples);
+    for (int x = 0; x < fine; ++x) {
+      const int pixel = y / samples * kSize + x / samples, sample = y * fine + x;
+      image[static_cast<std::size_t>(pixel)] +=
+          shaded.radiance[static_cast<std::size_t>(sample)].x / (samples * samples);
+    }
   return image;
 }
 
@@ -254,9 +256,11 @@ TEST_P(Stability, ZoomingByTwoKeepsHalfOfTheSeeds) {
   const std::vector<float> coarse = cellImage(GetParam(), -7, kCount, 1000);
   int kept[2][2] = {};
   for (int j = 0; j < 2 * kCount; ++j)
-    for (int i = 0; i < 2 * kCount; ++i)
-      kept[j % 2][i % 2] += fine[static_cast<std::size_t>(j * 2 * kCount + i)] ==
-                            coarse[static_cast<std::size_t>(j / 2 * kCount + i / 2)];
+    for (int i = 0; i < 2 * kCount; ++i) {
+      const int small = j * 2 * kCount + i, large = j / 2 * kCount + i / 2;
+      kept[j % 2][i % 2] +=
+          fine[static_cast<std::size_t>(small)] == coarse[static_cast<std::size_t>(large)];
+    }
   EXPECT_EQ(kept[0][0], kCount * kCount);
   // Binomials of mean 100 agree by chance in 3 % of the cells.
   for (const int other : {kept[0][1], kept[1][0], kept[1][1]})

@@ -67,8 +67,10 @@ PairNumbers numbersOf(std::int32_t base_u, std::int32_t base_v, std::int32_t h_u
 std::vector<double> distinct(const std::vector<double>& all) {
   std::vector<double> result;
   for (int v = 1; v < kBlock; v += 2)
-    for (int u = 1; u < kBlock; u += 2)
-      result.push_back(all[static_cast<std::size_t>(v * kBlock + u)]);
+    for (int u = 1; u < kBlock; u += 2) {
+      const int at = v * kBlock + u;
+      result.push_back(all[static_cast<std::size_t>(at)]);
+    }
   return result;
 }
 
@@ -89,9 +91,13 @@ double uniformityPValue(const std::vector<double>& x, int bins = 64) {
 double independencePValue(const std::vector<double>& x, const std::vector<double>& y) {
   constexpr int kBins = 16;
   std::vector<double> counts(kBins * kBins);
-  for (std::size_t i = 0; i < x.size(); ++i)
-    ++counts[static_cast<std::size_t>(std::min(static_cast<int>(x[i] * kBins), kBins - 1) * kBins +
-                                      std::min(static_cast<int>(y[i] * kBins), kBins - 1))];
+  const auto bin = [](double value) {
+    return std::min(static_cast<int>(value * kBins), kBins - 1);
+  };
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const int both = bin(x[i]) * kBins + bin(y[i]);
+    ++counts[static_cast<std::size_t>(both)];
+  }
   return chiSquarePValue(counts, static_cast<double>(x.size()) / (kBins * kBins));
 }
 

@@ -55,7 +55,7 @@ ShadingOptions smallFrame() {
   return options;
 }
 
-Image shaded(const Scene& scene, const View& view, ShadingOptions options) {
+Image shaded(const Scene& scene, const View& view, const ShadingOptions& options) {
   FrameRenderer renderer(testBench().device, scene, view, options, 2);
   renderer.prepare();
   renderer.shade();

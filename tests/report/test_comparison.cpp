@@ -27,8 +27,8 @@ Comparison compareOne(const Record& before, const Record& after,
   return report.comparisons.at(0);
 }
 
-Change changeOf(const std::string& metric, const std::string& unit, std::vector<double> before,
-                std::vector<double> after) {
+Change changeOf(const std::string& metric, const std::string& unit,
+                const std::vector<double>& before, const std::vector<double>& after) {
   return compareOne(measured(metric, unit, before), measured(metric, unit, after)).change;
 }
 

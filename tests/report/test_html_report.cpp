@@ -20,7 +20,7 @@ TEST(HtmlReport, Base64TestVectors) {
   EXPECT_EQ(base64("foob"), "Zm9vYg==");
   EXPECT_EQ(base64("fooba"), "Zm9vYmE=");
   EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
-  EXPECT_EQ(base64("\xff\xfe\x00" + std::string(1, '\0')).substr(0, 3), "//4");
+  EXPECT_EQ(base64("\xff\xfe" + std::string(1, '\0')).substr(0, 3), "//4");
 }
 
 std::size_t countOf(const std::string& text, const std::string& part) {

@@ -38,7 +38,7 @@ TEST(RecordLog, ResumeFindsByConfiguration) {
   }
   const RecordLog log = RecordLog::resume(folder / "a.jsonl", sampleRun());
   ASSERT_EQ(log.records().size(), 3u);
-  const auto find = [&](const std::string& name, std::map<std::string, std::string> config) {
+  const auto find = [&](const std::string& name, const std::map<std::string, std::string>& config) {
     return log.recordsOf("zk16", name, config);
   };
   const std::vector<Record> found = find("a/b", {{"size", "1920x1080"}});

@@ -81,8 +81,8 @@ TEST(TableSpec, ThePageShowsWhatATableSaysOfItself) {
   const TableSpec table = kitchen();
   const std::string page = pageOf({&table, 1});
   for (const char* part :
-       {"<a class=\"tile\" href=\"#kitchen\"><b>20.0 … 40.0</b><span>milliseconds of "
-        "stewing</span>",
+       {("<a class=\"tile\" href=\"#kitchen\"><b>20.0 … 40.0</b><span>milliseconds of "
+         "stewing</span>"),
         "<a href=\"#kitchen\">Soups &amp; stews</a>",
         "<h2 id=\"kitchen\">Soups &amp; stews</h2>",
         "<p>What soup costs.</p>",

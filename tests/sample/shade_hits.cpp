@@ -88,10 +88,10 @@ std::vector<std::uint32_t> shade(const HitsHeader& header, const std::uint32_t* 
   const cl_mem out =
       clCreateBuffer(context, CL_MEM_WRITE_ONLY, radiance.size() * 4, nullptr, &status);
   check(status, "clCreateBuffer");
-  check(clSetKernelArg(kernel, 0, sizeof hit_buffer, &hit_buffer), "hits");
-  check(clSetKernelArg(kernel, 1, sizeof material, &material), "material");
+  check(clSetKernelArg(kernel, 0, sizeof(cl_mem), &hit_buffer), "hits");
+  check(clSetKernelArg(kernel, 1, sizeof(cl_mem), &material), "material");
   check(clSetKernelArg(kernel, 2, sizeof header.irradiance, header.irradiance), "irradiance");
-  check(clSetKernelArg(kernel, 3, sizeof out, &out), "radiance");
+  check(clSetKernelArg(kernel, 3, sizeof(cl_mem), &out), "radiance");
   check(clSetKernelArg(kernel, 4, sizeof header.count, &header.count), "count");
   const std::size_t items = header.count / std::stoul(lanes);
   check(clEnqueueNDRangeKernel(queue, kernel, 1, nullptr, &items, nullptr, 0, nullptr, nullptr),
