@@ -116,8 +116,8 @@ TEST(Watertight, JitteredGridInBothWindings) {
       // The same silhouette at any depth: the grid stays a partition of the screen.
       const float z = depth(rng);
       addVertex(mesh,
-                glm::vec3((float(i) - kSide / 2) * 4 + jitter(rng),
-                          (float(j) - kSide / 2) * 4 + jitter(rng), -1) *
+                glm::vec3(float(i - kSide / 2) * 4 + jitter(rng),
+                          float(j - kSide / 2) * 4 + jitter(rng), -1) *
                     z,
                 {0, 0});
     }

@@ -92,11 +92,12 @@ TEST(TableSpec, ThePageShowsWhatATableSaysOfItself) {
         "<p>own section of 11</p>",
         "<li class=\"part0\">cutting</li><li class=\"part1\">stewing</li>",
         "<div class=\"label\">pot/lid/slow</div>",
-        "data-chart=\"curve\" data-table=\"kitchen\" data-prefix=\"pot/carrots=\" "
-        "data-metrics=\"stew_ms\"",
+        ("data-chart=\"curve\" data-table=\"kitchen\" data-prefix=\"pot/carrots=\" "
+         "data-metrics=\"stew_ms\""),
         "aria-label=\"stewing, ms over pot/carrots\"",
-        "data-chart=\"tradeoff\" data-table=\"kitchen\" data-prefix=\"pot/\" data-cost=\"stew_ms\" "
-        "data-error=\"salt\" data-noise=\"pepper\" data-optimal=\"best\"",
+        ("data-chart=\"tradeoff\" data-table=\"kitchen\" data-prefix=\"pot/\" "
+         "data-cost=\"stew_ms\" "
+         "data-error=\"salt\" data-noise=\"pepper\" data-optimal=\"best\""),
         "data-error-title=\"salt &amp; pepper\"",
         "<h3>Peas</h3>",
         "cells_pot_lid_slow.png is not in the folder",
