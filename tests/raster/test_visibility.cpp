@@ -110,16 +110,15 @@ TEST(Watertight, JitteredGridInBothWindings) {
   TriangleMesh mesh;
   std::mt19937 rng(5);
   std::uniform_real_distribution<float> jitter(-0.8f, 0.8f), depth(0.5f, 20.0f);
-  constexpr int kSide = 24;
+  constexpr int kHalf = 12, kSide = 2 * kHalf;
   for (int j = 0; j <= kSide; ++j)
     for (int i = 0; i <= kSide; ++i) {
       // The same silhouette at any depth: the grid stays a partition of the screen.
       const float z = depth(rng);
-      addVertex(mesh,
-                glm::vec3(float(i - kSide / 2) * 4 + jitter(rng),
-                          float(j - kSide / 2) * 4 + jitter(rng), -1) *
-                    z,
-                {0, 0});
+      addVertex(
+          mesh,
+          glm::vec3(float(i - kHalf) * 4 + jitter(rng), float(j - kHalf) * 4 + jitter(rng), -1) * z,
+          {0, 0});
     }
   for (std::uint32_t j = 0; j < kSide; ++j)
     for (std::uint32_t i = 0; i < kSide; ++i) {
