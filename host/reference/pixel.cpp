@@ -22,8 +22,8 @@ std::int32_t floorToIndex(double x) {
   return static_cast<std::int32_t>(std::floor(std::clamp(x, -0x1p31, 0x1p31 - 1.0)));
 }
 
-// Mean above which some method rounds a normal variate; the smallest of the methods' limits.
-constexpr double kMostExactMean = 5;
+// Mean above which some method rounds a real number; the smallest of the methods' limits.
+constexpr double kMostExactMean = 3.75;
 
 // What the draws of one pixel and light have in common.
 struct LightDraw {
@@ -53,9 +53,9 @@ double gridRatio(const GridVisit& grid, const LightDraw& draw, double& rounding)
     const CellContent content = contentOf(cell, grid.level, draw);
     const std::int64_t k = draw.exact ? drawExact(content.draw, content.count, p)
                                       : drawZk16(content.draw, content.count, p);
-    const double one = cell.weight / weight / (content.expected * p);
+    const double one = cell.weight / weight / (static_cast<double>(content.count) * p);
     sum += one * static_cast<double>(k);
-    if (content.expected * std::min(p, 1.0 - p) > kMostExactMean)
+    if (static_cast<double>(content.count) * std::min(p, 1.0 - p) > kMostExactMean)
       rounding = std::max(rounding, grid.mip_weight * one);
   }
   return grid.mip_weight * sum;
@@ -74,10 +74,11 @@ HalfVectorIndex halfVectorIndex(const glm::dvec3& half, const Glints& glints) {
 
 PixelResult evaluatePixel(const SurfacePixel& pixel, const Glints& glints,
                           std::span<const PointLight> lights, const GlintMethodOptions& options) {
-  const glm::dvec2 stretch = options.stretch.value_or(gridStretch(glints.alpha_g, glints.alpha_l));
+  const GridRules rules = gridRules(glints.alpha_g, glints.alpha_l, glints.density, glints.groove);
+  const glm::dvec2 stretch = rules.stretch;
   const std::vector<GridVisit> grids = options.exact
-                                           ? visitExact(pixel.footprint, stretch)
-                                           : visitZk16(pixel.footprint, stretch, options.ka);
+                                           ? visitExact(pixel.footprint, rules)
+                                           : visitZk16(pixel.footprint, rules, options.ka);
   const glm::dvec3 o = toLocal(pixel.frame, pixel.view);
 
   PixelResult result;

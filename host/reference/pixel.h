@@ -3,7 +3,6 @@
 #pragma once
 #include <cstdint>
 #include <glm/glm.hpp>
-#include <optional>
 #include <span>
 
 #include "host/core/frame_packing.h"
@@ -36,8 +35,6 @@ struct SurfacePixel {
 struct GlintMethodOptions {
   bool exact = false;
   int ka = 16;
-  /// Replaces gridStretch where the caller needs the bits of another implementation.
-  std::optional<glm::dvec2> stretch{};
 };
 
 struct PixelResult {

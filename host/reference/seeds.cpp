@@ -58,10 +58,11 @@ CellContent cellContent(std::uint32_t d, double mean, double size_variation) {
       size_variation > 0
           ? std::max(std::abs(1.0 + size_variation * gaussOf(d * 0x2C1B3C6Du)), kLeastFactor)
           : 1.0;
-  content.expected = std::min(mean, kMostExpected / (1.0 + 3.5 * size_variation)) * factor;
-  const double whole = std::floor(content.expected);
+  const double expected = std::min(mean, kMostExpected / (1.0 + 3.5 * size_variation)) * factor;
+  const double whole = std::floor(expected);
   content.count = static_cast<std::int64_t>(whole);
-  if (uniformOf(d * 0x297A2D39u) < content.expected - whole) ++content.count;
+  if (uniformOf(d * 0x297A2D39u) < expected - whole) ++content.count;
+  content.count = std::max<std::int64_t>(content.count, 1);
   content.draw = uniformOf(d);
   return content;
 }

@@ -26,8 +26,7 @@ double gaussOf(std::uint32_t h);
 
 /// What one pair of cells holds.
 struct CellContent {
-  std::int64_t count = 0;  // N
-  double expected = 0;     // N-bar m, which a share is relative to
+  std::int64_t count = 1;  // N >= 1
   double draw = 0;         // U(d) of the binomial draw
 };
 

@@ -81,7 +81,6 @@ Finding drawForDraw(const CheckContext& context, const DrawCase& c) {
   reference::GlintMethodOptions options;
   options.exact = c.method == kExact;
   options.ka = c.ka;
-  options.stretch = deviceStretch(context.bench, frame.material);
 
   Finding finding(kFlippedPixelShare);
   double different_counts = 0, flipped = 0, sum = 0, sum_reference = 0;
@@ -136,6 +135,9 @@ Finding cellRange(const CheckContext& context) {
 Finding footprintLevels(const CheckContext& context) {
   Finding finding(1);
   const glm::dvec2 stretch(0.25, 1);
+  GlintMaterial glints{};
+  glints.gamma = {0.25f, 1};
+  glints.finest_level = -30;
   std::vector<reference::PixelFootprint> footprints;
   for (const HandMadePixel& pixel : randomPixels(5000, {1e-6, 1, 200})) {
     footprints.push_back(pixel.footprint);
@@ -144,7 +146,7 @@ Finding footprintLevels(const CheckContext& context) {
   }
   for (const int ka : {1, 16, 64}) {
     const FootprintProbe probed =
-        probeFootprints(context.bench, footprints, stretch, kZk16, ka, context.lanes);
+        probeFootprints(context.bench, footprints, glints, kZk16, ka, context.lanes);
     for (std::size_t i = 0; i < footprints.size(); ++i) {
       const reference::PixelFootprint& f = footprints[i];
       finding.add(std::abs(probed.fine_level[i] + probed.coarse_weight[i] -

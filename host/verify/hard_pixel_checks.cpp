@@ -58,7 +58,6 @@ void HardCase::expectReference(const HandMadeFrame& frame) {
   const ShadedPixels shaded = shadeSanely(frame);
   reference::GlintMethodOptions options;
   options.exact = method == GlintMethod::kExact;
-  options.stretch = deviceStretch(context.bench, frame.material);
   const auto lights = referenceLights(frame);
   double flipped = 0, different_counts = 0;
   for (std::size_t i = 0; i < frame.pixels.size(); ++i) {
