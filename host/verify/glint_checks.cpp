@@ -197,6 +197,24 @@ Finding sameBits(const CheckContext& context, const WidthCase& c) {
   return finding;
 }
 
+// Microdetails of grooves have no roughness along u: it changes no bit.
+Finding grooveRoughnessAlong(const CheckContext& context) {
+  const DrawCase c = {"", kZk16, {.1f, .5f}, {.01f, .02f}, 1e6f, 1, true, 16, kUsual};
+  DrawCase other = c;
+  other.alpha_l.x = .09f;
+  const ShadedPixels one = drawPixels(context, c, drawFrame(c));
+  const ShadedPixels two = drawPixels(context, c, drawFrame(other));
+  Finding finding(0);
+  double different = 0, lit = 0;
+  for (std::size_t i = 0; i < one.radiance.size(); ++i) {
+    different += one.radiance[i] != two.radiance[i] || one.cells[i] != two.cells[i];
+    lit += one.radiance[i].x > 0;
+  }
+  finding.add(different);
+  finding.require(lit > 0, "no pixel is lit");
+  return finding;
+}
+
 }  // namespace
 
 std::vector<Check> glintChecks() {
@@ -206,6 +224,8 @@ std::vector<Check> glintChecks() {
                       [&c](const CheckContext& context) { return drawForDraw(context, c); }});
   checks.push_back({"cells/footprint", "error in units of its bound", footprintLevels});
   checks.push_back({"cells/zk16_range", "pixels outside 8 to 64 cells", cellRange});
+  checks.push_back(
+      {"cells/groove_roughness_along", "pixels that it changes", grooveRoughnessAlong});
   for (const WidthCase& c : kWidthCases)
     checks.push_back({std::string("cells/same_bits_") + c.name,
                       "pixels that differ from one lane's",
