@@ -171,7 +171,8 @@ Finding monotone(const CheckContext& context, GlintMethod method) {
 std::vector<Check> zoomChecks() {
   std::vector<Check> checks;
   for (const auto& [name, method] :
-       {std::pair("zk16", GlintMethod::kZk16), std::pair("exact", GlintMethod::kExact)}) {
+       {std::pair("zk16", GlintMethod::kZk16), std::pair("exact", GlintMethod::kExact),
+        std::pair("distributed", GlintMethod::kDistributed)}) {
     const auto add = [&, method = method](const std::string& property, const char* measure,
                                           Finding (*run)(const CheckContext&, GlintMethod)) {
       checks.push_back(
