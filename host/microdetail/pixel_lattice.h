@@ -25,8 +25,9 @@ struct PixelLattice {
 PixelLattice tiledLattice(const glm::dvec2& centre_uv, double area_uv, double aspect,
                           double angle_rad, int columns, int rows);
 
-/// The same pixels, seen through parallelograms of their shape and of at least `least_area_uv`: that
-/// of a microdetail, so that a pixel which is smaller sees one on average, as its neighbours do.
+/// The same pixels, seen through parallelograms of their shape and of at least `least_area_uv`:
+/// that of a microdetail, so that a pixel which is smaller sees one on average, as its neighbours
+/// do.
 PixelLattice grown(const PixelLattice& lattice, double least_area_uv);
 
 /// The planes of kernels/microdetail/microdetail.h, row after row, each of `stride` words; the last
