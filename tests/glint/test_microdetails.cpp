@@ -6,11 +6,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/core/error.h"
 #include "host/harness/pixel_harness.h"
 #include "host/microdetail/binomial_truth.h"
 #include "host/microdetail/glint_statistics.h"
 #include "host/microdetail/method_ratios.h"
 #include "host/microdetail/microdetail_truth.h"
+#include "host/ocl/switches.h"
 #include "tests/shared_bench.h"
 
 namespace glintmark {
@@ -158,6 +160,33 @@ TEST(Microdetails, AQuarterOfAPixelKeepsThreeQuarters) {
   }
 }
 
+// A pixel in eight by eight parts: what lies in it lies in one of them.
+TEST(Microdetails, APixelIsTheSumOfItsParts) {
+  for (const double aspect : {1.0, 16.0}) {
+    // From cells larger than a part to thousands of cells a pixel.
+    for (const double details : {200.0, 200000.0}) {
+      const MicrodetailSurface surface = surfaceOfCount(details);
+      const LightSlopes light = lightOn(surface);
+      const PixelLattice whole = latticeOf(aspect, 4);
+      PixelLattice parts = whole;
+      parts.step_x = parts.edge_x = whole.edge_x / 8.0;
+      parts.step_y = parts.edge_y = whole.edge_y / 8.0;
+      parts.centre_uv -= 3.5 * (parts.step_x + parts.step_y);
+      parts.columns = parts.rows = 32;
+      const auto large = redOf(placed(whole, surface, light).reflecting);
+      const auto small = redOf(placed(parts, surface, light).reflecting);
+      const double lambda = details * light.probability;
+      for (std::size_t i = 0; i < large.size(); ++i) {
+        double sum = 0;
+        for (std::size_t part = 0; part < 64; ++part)
+          sum += small[(8 * (i / 4) + part / 8) * 32 + 8 * (i % 4) + part % 8] / 64;
+        // Rounding may move one in a thousand across an edge.
+        EXPECT_NEAR(sum * lambda, large[i] * lambda, 0.1 + 1e-3 * lambda) << aspect << " " << i;
+      }
+    }
+  }
+}
+
 TEST(Microdetails, LanesAndPlacesOnTheTextureChangeNothing) {
   const MicrodetailSurface surface = surfaceOfCount(100);
   const LightSlopes light = lightOn(surface);
@@ -209,6 +238,66 @@ TEST(Microdetails, ConesOfLight) {
     EXPECT_NEAR(reflecting.mean, 1, 4 * error);
     EXPECT_NEAR(reflecting.variance * 300 * p, 1, 0.15);
   }
+}
+
+// What zk16 and exact have to share with the truth: the smooth lobe that both are relative to.
+TEST(Microdetails, MethodsHaveTheTruthsMean) {
+  KernelBench& bench = testBench();
+  const MicrodetailSurface surface = surfaceOfCount(2000);
+  std::vector<PixelLattice> lattices;
+  for (int i = 0; i < 4; ++i)
+    lattices.push_back(tiledLattice({100.3 * i, 7.7 - i}, kPixelArea, 4, 0.7 * i, 32, 24));
+  for (const GlintMethod method : {GlintMethod::kZk16, GlintMethod::kExact}) {
+    KernelConfig config;
+    config.width = 8;
+    config.method = method;
+    config.size_variation = false;
+    const auto ratios =
+        methodRatios(bench.device, bench.cache, config, lattices, surface.material, kHalfSlope);
+    ASSERT_EQ(ratios.size(), 4u);
+    std::vector<float> all;
+    for (const auto& lattice : ratios) {
+      ASSERT_EQ(lattice.size(), 32u * 24);
+      for (const glm::vec3& ratio : lattice) all.push_back(ratio.r);
+    }
+    // Neighbours share cells: some hundred independent ones at least.
+    EXPECT_NEAR(glintStatistics(all, 32).mean, 1, 0.05) << choiceName(method);
+    // Far apart, nothing is repeated.
+    EXPECT_NE(redOf(ratios[0]), redOf(ratios[1]));
+  }
+}
+
+TEST(Microdetails, StatisticsOfHandMadePixels) {
+  // Three columns: neighbours (0, 4), (4, 0.005), (2, 2), (2, 1.995), and down (0, 2), (4, 2),
+  // (0.005, 1.995).
+  const std::vector<float> still = {0, 4, 0.005f, 2, 2, 1.995f};
+  std::vector<float> moved = still;
+  moved[1] = 1;
+  const GlintStatistics s = glintStatistics(still, 3, moved);
+  const double mean = 10.0 / 6;
+  EXPECT_NEAR(s.mean, mean, 1e-6);
+  double variance = 0, product = 0;
+  for (const float value : still) variance += (value - mean) * (value - mean) / 6;
+  for (const auto& [a, b] : {std::pair{0, 1}, {1, 2}, {3, 4}, {4, 5}, {0, 3}, {1, 4}, {2, 5}})
+    product += (still[static_cast<std::size_t>(a)] - mean) *
+               (still[static_cast<std::size_t>(b)] - mean) / 7;
+  EXPECT_NEAR(s.variance, variance, 1e-6);
+  EXPECT_NEAR(s.correlation, product / variance, 1e-6);
+  EXPECT_NEAR(s.dark, 2.0 / 6, 1e-9);
+  EXPECT_EQ(s.largest, 4);
+  EXPECT_NEAR(s.change, 0.5, 1e-6);
+  EXPECT_THROW(glintStatistics(still, 4), Error);
+  EXPECT_THROW(glintStatistics({}, 1), Error);
+  EXPECT_THROW(glintStatistics(still, 3, std::vector<float>{1}), Error);
+}
+
+TEST(Microdetails, WhatCannotBePlacedIsSaid) {
+  EXPECT_THROW(detailCounts(0, CountLaw::kPoisson), Error);
+  EXPECT_THROW(detailCounts(1e20, CountLaw::kPoisson), Error);
+  EXPECT_THROW(binomialRatios(1, 0, 0.5, CountLaw::kFixed, 1), Error);
+  EXPECT_THROW(binomialRatios(1, 10, 1.5, CountLaw::kFixed, 1), Error);
+  const reference::Cone below{{0, 0, -1}, 0.1};
+  EXPECT_THROW(coneSlopes(below, {0, 0, 1}, {0.3, 0.3}, {0.1, 0.1}, 16), Error);
 }
 
 TEST(Microdetails, SizesAndColours) {

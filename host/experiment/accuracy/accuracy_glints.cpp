@@ -107,7 +107,7 @@ const std::vector<GlintFigures>& GlintSweep::judged(const AccuracySetting& setti
   for (std::size_t i = 0; i < glintStages().size(); ++i) {
     progress_.show(static_cast<int>(i), static_cast<int>(glintStages().size()),
                    "glints: pixels by " + setting.name);
-    stages.push_back(judge_.method(config, i));
+    stages.push_back(judge_.method(config, i, knobOf(setting.name) == kMethodKnob));
   }
   progress_.clear();
   return judged_.emplace(setting.name, std::move(stages)).first->second;
@@ -136,17 +136,21 @@ AccuracyFigures GlintSweep::figures(std::size_t index, const AccuracyStage& stag
   AccuracyFigures figures;
   figures.failure = failureOf(index, stage, setting, optionsOf(setting));
   std::vector<double> errors, noises, variances, motions;
-  for (const GlintFigures& one : judged(setting)) {
+  const std::vector<GlintStage> stages = glintStages();
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    const GlintFigures& one = judged(setting)[i];
     if (!one.sane) {
       figures.failure = "a ratio of glints is negative or not finite";
       return figures;
     }
+    if (stages[i].isNear()) continue;
     errors.push_back(one.error);
     noises.push_back(one.noise);
     variances.push_back(one.variance_ratio.mean());
     motions.push_back(one.motion_ratio.mean());
-    figures.bias += (one.mean.mean() - 1) / static_cast<double>(glintStages().size());
+    figures.bias += one.mean.mean() - 1;
   }
+  figures.bias /= static_cast<double>(errors.size());
   figures.error = geometricMeanOf(errors);
   figures.truth_stderr = geometricMeanOf(noises);
   figures.variance_ratio = geometricMeanOf(variances);
@@ -224,22 +228,23 @@ std::vector<std::string> knownScenes() {
 AccuracyKind glintsAccuracy() {
   std::vector<std::string> knobs = knobsOf(settings(1));
   knobs.emplace_back(kTruthKnob);
-  return {"glints",
-          knobs,
-          knownScenes(),
-          {"screen_plane/grazing", "snow/grazing"},
-          [](BenchRun& run, const std::vector<std::string>& scenes) {
-            const int side = latticeSide(run);
-            const AccuracyNotes notes = {
-                fmt::format("error: Wasserstein distance between pixels and those of placed "
-                            "microdetails, over their mean; {} lattices of {}x{} pixels at each of "
-                            "{} steps of a zoom by two, geometric mean over {} kinds of pixels",
-                            kGlintReplicates, side, side, kGlintZoomSteps, glintStages().size()),
-                fmt::format("kernel events at {}, in turn with the default, geometric mean over {}",
-                            run.options().size, fmt::join(scenes, ", "))};
-            return std::unique_ptr<AccuracyEffect>(
-                std::make_unique<GlintSweep>(run, scenes, settings(run.info().width), notes));
-          }};
+  return {
+      "glints",
+      knobs,
+      knownScenes(),
+      {"screen_plane/grazing", "snow/grazing"},
+      [](BenchRun& run, const std::vector<std::string>& scenes) {
+        const int side = latticeSide(run);
+        const AccuracyNotes notes = {
+            fmt::format("error: Wasserstein distance between pixels and those of placed "
+                        "microdetails, over their mean; {} lattices of {}x{} pixels at each of "
+                        "{} steps of a zoom by two, geometric mean over {} kinds of pixels",
+                        kGlintReplicates, side, side, kGlintZoomSteps, glintStages().size() - 1),
+            fmt::format("kernel events at {}, in turn with the default, geometric mean over {}",
+                        run.options().size, fmt::join(scenes, ", "))};
+        return std::unique_ptr<AccuracyEffect>(
+            std::make_unique<GlintSweep>(run, scenes, settings(run.info().width), notes));
+      }};
 }
 
 }  // namespace glintmark

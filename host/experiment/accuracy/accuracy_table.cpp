@@ -232,8 +232,11 @@ const TableSpec& accuracySpec() {
            {"lobes_error", "1", "error to lobes",
             "`error` against microdetails that mirror the share that their lobe says, instead of "
             "all "
-            "or nothing with that probability. This and what follows: cases "
+            "or nothing with that probability, and (`tent_error`) against pixels that are tents "
+            "over "
+            "twice their parallelogram. This and what follows: cases "
             "`glints/…/aspect=…/lambda=…` only"},
+           {"tent_error", "1"},
            {"dark_share", "1", "dark pixels",
             "share of pixels below a hundredth of the smooth lobe, and of the truth's"},
            {"truth_dark_share", "1"},

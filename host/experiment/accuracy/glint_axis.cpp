@@ -28,6 +28,7 @@ std::vector<GlintStage> glintStages() {
   std::vector<GlintStage> stages;
   for (const double aspect : kAspects)
     for (const double lambda : kLambdas) stages.push_back({aspect, lambda});
+  stages.push_back({1, 0.02, 0.5});
   return stages;
 }
 
@@ -35,6 +36,7 @@ std::string glintStageCase(const std::string& case_name, const GlintStage& stage
   CaseName name = CaseName::parse(case_name);
   name.knobs.emplace_back("aspect", stage.aspect);
   name.knobs.emplace_back("lambda", stage.lambda);
+  if (stage.isNear()) name.knobs.emplace_back("micro", stage.micro);
   return name.text();
 }
 
@@ -47,8 +49,9 @@ std::size_t glintStageOf(const std::string& case_name) {
   throw Error(fmt::format("no pixels are of case {}", case_name));
 }
 
-LightSlopes glintLight() {
-  return pointSlopes(kGlintHalfSlope, glm::dvec2(kGlintAlpha), glm::dvec2(kGlintAlphaDetail));
+LightSlopes glintLight(const GlintStage& stage) {
+  return pointSlopes(kGlintHalfSlope, glm::dvec2(kGlintAlpha),
+                     glm::dvec2(stage.micro * kGlintAlpha));
 }
 
 PixelLattice glintLattice(const GlintStage& stage, int replicate, int zoom_step, int side) {
@@ -63,13 +66,13 @@ PixelLattice glintLattice(const GlintStage& stage, int replicate, int zoom_step,
 MaterialParams glintMaterial(const GlintStage& stage, int zoom_step) {
   MaterialParams material{};
   const auto alpha_g = static_cast<float>(kGlintAlpha);
-  const auto alpha_l = static_cast<float>(kGlintAlphaDetail);
+  const auto alpha_l = static_cast<float>(stage.micro * kGlintAlpha);
   material.surface.alpha_g = {alpha_g, alpha_g};
   material.surface.intensity = 1;
   material.surface.f0 = {1, 1, 1, 0};
   material.glints.alpha_l = {alpha_l, alpha_l};
   material.glints.density =
-      static_cast<float>(stage.lambda / (glintLight().probability * pixelArea(zoom_step)));
+      static_cast<float>(stage.lambda / (glintLight(stage).probability * pixelArea(zoom_step)));
   return material;
 }
 

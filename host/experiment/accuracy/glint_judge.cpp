@@ -110,9 +110,10 @@ GlintJudge::Frames GlintJudge::place(std::size_t stage, int replicate, int side,
                           stages_[stage].aspect, stages_[stage].lambda, replicate + 1,
                           kGlintReplicates));
   };
-  const MicrodetailRatios still = truth.place(lattice, surface, glintLight(), filter, shown);
-  const MicrodetailRatios moved =
-      truth.place(lattice.moved(motion.x, motion.y), surface, glintLight(), filter, shown);
+  const MicrodetailRatios still =
+      truth.place(lattice, surface, glintLight(stages_[stage]), filter, shown);
+  const MicrodetailRatios moved = truth.place(lattice.moved(motion.x, motion.y), surface,
+                                              glintLight(stages_[stage]), filter, shown);
   if (lobes != nullptr) *lobes = {redOf(still.lobes), redOf(moved.lobes), side};
   return {redOf(still.reflecting), redOf(moved.reflecting), side};
 }
@@ -153,13 +154,15 @@ const GlintJudge::Truth& GlintJudge::truth(std::size_t stage) {
 }
 
 GlintFigures GlintJudge::judged(std::size_t stage, int steps,
-                                const std::function<std::vector<Frames>(int)>& frames) {
+                                const std::function<std::vector<Frames>(int)>& frames,
+                                bool with_tent) {
   const Truth& right = truth(stage);
-  const double bound = 1 / glintLight().probability;
+  const double bound = 1 / glintLight(stages_[stage]).probability;
   Grid mean(steps), variance(steps), dark(steps), largest(steps), correlation(steps), change(steps);
-  std::vector<double> errors, lobe_errors;
+  std::vector<double> errors, lobe_errors, tent_errors;
   GlintFigures made;
   made.zooms = steps > 1;
+  const std::vector<float>* const tent = with_tent ? &tentValues(stage) : nullptr;
   for (int step = 0; step < steps; ++step) {
     std::vector<std::vector<float>> stills;
     std::vector<Frames> replicates = frames(step);
@@ -184,11 +187,13 @@ GlintFigures GlintJudge::judged(std::size_t stage, int steps,
     const std::vector<float> values = pooled(stills);
     errors.push_back(wassersteinDistance(values, right.values));
     lobe_errors.push_back(wassersteinDistance(values, right.lobe_values));
+    if (tent != nullptr) tent_errors.push_back(wassersteinDistance(values, *tent));
   }
   made.error = meanOf(errors);
   made.error_swing = *std::ranges::max_element(errors) - *std::ranges::min_element(errors);
   made.noise = right.noise;
   made.lobes_error = meanOf(lobe_errors);
+  if (tent != nullptr) made.tent_error = meanOf(tent_errors);
   made.mean = mean.figure();
   made.variance_ratio = variance.figure(over(1, right.mean.variance));
   made.dark = dark.figure();
@@ -203,43 +208,68 @@ GlintFigures GlintJudge::judged(std::size_t stage, int steps,
   return made;
 }
 
-GlintFigures GlintJudge::method(const KernelConfig& config, std::size_t stage) {
-  return judged(stage, kGlintZoomSteps, [&](int step) {
-    progress_("");
-    std::vector<PixelLattice> lattices;
-    for (int r = 0; r < kGlintReplicates; ++r) {
-      const PixelLattice lattice = glintLattice(stages_[stage], r, step, side_);
-      const glm::dvec2 motion = glintMotion(r);
-      lattices.push_back(lattice);
-      lattices.push_back(lattice.moved(motion.x, motion.y));
-    }
-    const auto ratios = methodRatios(device_, cache_, config, lattices,
-                                     glintMaterial(stages_[stage], step), kGlintHalfSlope);
-    std::vector<Frames> frames;
-    for (std::size_t i = 0; i < ratios.size(); i += 2)
-      frames.push_back({redOf(ratios[i]), redOf(ratios[i + 1]), side_});
-    return frames;
-  });
+const std::vector<GlintJudge::Frames>& GlintJudge::tentFrames(std::size_t stage) {
+  std::vector<Frames>& frames = tents_[stage];
+  for (int r = static_cast<int>(frames.size()); r < kGlintReplicates; ++r)
+    frames.push_back(place(stage, r, truthSide(stage), PixelFilter::kTent, nullptr));
+  return frames;
+}
+
+const std::vector<float>& GlintJudge::tentValues(std::size_t stage) {
+  std::vector<float>& values = tent_values_[stage];
+  if (!values.empty()) return values;
+  std::vector<std::vector<float>> stills;
+  for (const Frames& one : tentFrames(stage)) stills.push_back(one.still);
+  return values = pooled(stills);
+}
+
+GlintFigures GlintJudge::method(const KernelConfig& config, std::size_t stage, bool with_tent) {
+  return judged(
+      stage, kGlintZoomSteps,
+      [&](int step) {
+        progress_("");
+        std::vector<PixelLattice> lattices;
+        for (int r = 0; r < kGlintReplicates; ++r) {
+          const PixelLattice lattice = glintLattice(stages_[stage], r, step, side_);
+          const glm::dvec2 motion = glintMotion(r);
+          lattices.push_back(lattice);
+          lattices.push_back(lattice.moved(motion.x, motion.y));
+        }
+        const auto ratios = methodRatios(device_, cache_, config, lattices,
+                                         glintMaterial(stages_[stage], step), kGlintHalfSlope);
+        std::vector<Frames> frames;
+        for (std::size_t i = 0; i < ratios.size(); i += 2)
+          frames.push_back({redOf(ratios[i]), redOf(ratios[i + 1]), side_});
+        return frames;
+      },
+      with_tent);
+}
+
+// Draws like a method's: at every step of the zoom, as many pixels. So its swing is what chance
+// does.
+std::vector<GlintJudge::Frames> GlintJudge::drawn(std::size_t stage, int step) const {
+  const double p = glintLight(stages_[stage]).probability;
+  const auto pixels = static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_);
+  std::vector<Frames> frames;
+  for (int r = 0; r < kGlintReplicates; ++r) {
+    const auto seed = static_cast<std::uint32_t>(step * kGlintReplicates + r);
+    frames.push_back(
+        {binomialRatios(pixels, stages_[stage].lambda / p, p, CountLaw::kFixed, seed), {}, side_});
+  }
+  return frames;
 }
 
 GlintFigures GlintJudge::truthForm(const std::string& form, std::size_t stage) {
-  if (form == "lobes") return judged(stage, 1, [&](int) { return truth(stage).lobes; });
-  const int side = truthSide(stage);
-  const double p = glintLight().probability;
-  const auto drawn = [&](int replicate) -> Frames {
-    if (form == "tent") return place(stage, replicate, side, PixelFilter::kTent, nullptr);
-    if (form != "binomial") throw Error(fmt::format("the truth has no form '{}'", form));
-    const auto pixels = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
-    return {binomialRatios(pixels, stages_[stage].lambda / p, p, CountLaw::kFixed,
-                           static_cast<std::uint32_t>(replicate)),
-            {},
-            side};
-  };
-  return judged(stage, 1, [&](int) {
-    std::vector<Frames> frames;
-    for (int r = 0; r < kGlintReplicates; ++r) frames.push_back(drawn(r));
-    return frames;
-  });
+  if (form == "lobes")
+    return judged(
+        stage, 1, [&](int) { return truth(stage).lobes; }, true);
+  if (form == "tent")
+    return judged(
+        stage, 1, [&](int) { return tentFrames(stage); }, true);
+  if (form == "binomial")
+    return judged(
+        stage, kGlintZoomSteps, [&](int step) { return drawn(stage, step); }, true);
+  throw Error(fmt::format("the truth has no form '{}'", form));
 }
 
 }  // namespace glintmark

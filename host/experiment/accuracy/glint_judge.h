@@ -2,6 +2,7 @@
 #pragma once
 #include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,10 +25,11 @@ struct ReplicatedFigure {
 
 /// One stage. Distances and changes are in units of the smooth lobe.
 struct GlintFigures {
-  double error = 0;        // W1 to the truth, mean over the zoom
-  double error_swing = 0;  // greatest less least over the zoom
-  double noise = 0;        // W1 of two samples of the truth as large as those compared
-  double lobes_error = 0;  // W1 to the truth whose microdetails mirror by their lobes
+  double error = 0;                  // W1 to the truth, mean over the zoom
+  double error_swing = 0;            // greatest less least over the zoom
+  double noise = 0;                  // W1 of two samples of the truth as large as those compared
+  double lobes_error = 0;            // W1 to the truth whose microdetails mirror by their lobes
+  std::optional<double> tent_error;  // W1 to the truth seen through a tent
   ReplicatedFigure mean;
   ReplicatedFigure variance_ratio;  // over the truth's
   ReplicatedFigure dark;            // share of pixels
@@ -50,8 +52,9 @@ class GlintJudge {
   /// microdetails that it would take minutes.
   GlintJudge(Device& device, ProgramCache& cache, int lanes, int side, Progress progress);
 
-  /// By a program of `config` (glint on, no size variation).
-  GlintFigures method(const KernelConfig& config, std::size_t stage);
+  /// By a program of `config` (glint on, no size variation). A truth with tents takes four times as
+  /// long to place.
+  GlintFigures method(const KernelConfig& config, std::size_t stage, bool with_tent);
 
   /// Other forms of the truth held against it: kTruthForms.
   GlintFigures truthForm(const std::string& form, std::size_t stage);
@@ -73,7 +76,10 @@ class GlintJudge {
   int truthSide(std::size_t stage) const;
   // `frames` of all replicates at a step of the zoom.
   GlintFigures judged(std::size_t stage, int steps,
-                      const std::function<std::vector<Frames>(int step)>& frames);
+                      const std::function<std::vector<Frames>(int step)>& frames, bool with_tent);
+  const std::vector<Frames>& tentFrames(std::size_t stage);
+  const std::vector<float>& tentValues(std::size_t stage);
+  std::vector<Frames> drawn(std::size_t stage, int step) const;
 
   Device& device_;
   ProgramCache& cache_;
@@ -81,6 +87,8 @@ class GlintJudge {
   Progress progress_;
   std::vector<GlintStage> stages_;
   std::map<std::size_t, Truth> truths_;
+  std::map<std::size_t, std::vector<Frames>> tents_;
+  std::map<std::size_t, std::vector<float>> tent_values_;  // of all replicates, ascending
 };
 
 /// "lobes": microdetails mirror the share that their lobes say, instead of all or nothing [ZK16]

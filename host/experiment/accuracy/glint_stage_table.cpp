@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "host/experiment/accuracy/accuracy_table.h"
 #include "host/report/record/case_name.h"
@@ -25,12 +26,12 @@ struct Column {
 constexpr Column kFigures[] = {{"W1", "error", Over::kGeometric},
                                {"s.e.", "truth_stderr", Over::kGeometric},
                                {"lobes", "lobes_error", Over::kGeometric},
-                               {"bias", "bias", Over::kMean},
+                               {"tent", "tent_error", Over::kGeometric},
+                               {"mean-1", "bias", Over::kMean},
                                {"variance", "variance_ratio", Over::kGeometric},
                                {"dark", "dark_share", Over::kMean},
                                {"(truth)", "truth_dark_share", Over::kMean},
                                {"largest", "largest_of_bound", Over::kMost},
-                               {"(truth)", "truth_largest_of_bound", Over::kMost},
                                {"corr.", "correlation", Over::kMean},
                                {"motion", "motion_ratio", Over::kGeometric}};
 constexpr Column kSwings[] = {{"W1", "error_swing", Over::kMean},
@@ -44,6 +45,7 @@ constexpr Column kSwings[] = {{"W1", "error_swing", Over::kMean},
 struct StageCase {
   std::string case_name, setting;  // "zk16"; the knob is not said again
   double aspect, lambda;
+  bool near;
 };
 
 // Those that have a metric.
@@ -52,7 +54,8 @@ std::vector<StageCase> stageCases(std::span<const Record> records, const char* m
   for (const std::string& case_name : caseNames(records)) {
     const CaseName name = CaseName::parse(case_name);
     if (!name.value("lambda") || CaseRecords(records, case_name).find(metric) == nullptr) continue;
-    cases.push_back({case_name, name.knobs[0].value, name.number("aspect"), name.number("lambda")});
+    cases.push_back({case_name, name.knobs[0].value, name.number("aspect"), name.number("lambda"),
+                     name.value("micro").has_value()});
   }
   return cases;
 }
@@ -74,41 +77,56 @@ std::optional<double> together(std::span<const Record> records, const std::vecto
 
 std::string shortNumber(std::optional<double> value) {
   if (!value || !std::isfinite(*value)) return "-";
-  // Below the noise of any figure here: no long row of digits.
-  return std::abs(*value) < 0.0005 ? "0" : compactNumber(*value);
+  const double size = std::abs(*value);
+  if (size < 0.00005) return "0";
+  return size < 0.1 ? fmt::format("{:.4f}", *value)
+         : size < 1 ? fmt::format("{:.3f}", *value)
+                    : compactNumber(*value);
 }
 
-// One line for each lambda, over all aspects, then for each aspect, over all lambdas.
+// Cases that make one line.
+struct Line {
+  std::string pixels;
+  std::vector<StageCase> cases;
+};
+
+// Of one setting: each lambda over all aspects, each aspect over all lambdas, pixels from near.
+std::vector<Line> linesOf(const std::vector<StageCase>& cases) {
+  std::vector<Line> lines;
+  const auto add = [&](const std::string& pixels, const StageCase& one) {
+    const auto found = std::ranges::find(lines, pixels, &Line::pixels);
+    if (found != lines.end())
+      found->cases.push_back(one);
+    else
+      lines.push_back({pixels, {one}});
+  };
+  for (const StageCase& one : cases)
+    if (!one.near) add(fmt::format("n={}", one.lambda), one);
+  for (const StageCase& one : cases)
+    if (!one.near) add(fmt::format("1:{}", one.aspect), one);
+  for (const StageCase& one : cases)
+    if (one.near) add("near", one);
+  return lines;
+}
+
 std::string tableOf(std::span<const Record> records, std::span<const Column> columns) {
   const std::vector<StageCase> cases = stageCases(records, columns.front().metric);
-  std::vector<std::string> header = {"glints", "pixels"};
+  std::vector<std::string> header = {"glints", "pixels"}, settings;
   for (const Column& column : columns) header.emplace_back(column.name);
   TextTable table(header);
-  std::vector<std::string> settings;
   for (const StageCase& one : cases)
     if (std::ranges::find(settings, one.setting) == settings.end()) settings.push_back(one.setting);
   for (const std::string& setting : settings) {
     if (setting != settings.front()) table.addRule();
-    bool named = false;
-    for (const auto member : {&StageCase::lambda, &StageCase::aspect}) {
-      std::vector<double> values;
-      for (const StageCase& one : cases)
-        if (one.setting == setting) values.push_back(one.*member);
-      std::ranges::sort(values);
-      values.erase(std::unique(values.begin(), values.end()), values.end());
-      for (const double value : values) {
-        std::vector<StageCase> chosen;
-        std::ranges::copy_if(cases, std::back_inserter(chosen), [&](const StageCase& one) {
-          return one.setting == setting && one.*member == value;
-        });
-        const bool is_lambda = member == &StageCase::lambda;
-        std::vector<std::string> row = {named ? "" : setting,
-                                        fmt::format("{}{}", is_lambda ? "n=" : "1:", value)};
-        named = true;
-        for (const Column& column : columns)
-          row.push_back(shortNumber(together(records, chosen, column)));
-        table.addRow(row);
-      }
+    std::vector<StageCase> own;
+    std::ranges::copy_if(cases, std::back_inserter(own),
+                         [&](const StageCase& one) { return one.setting == setting; });
+    std::string name = setting;  // on the first line
+    for (const Line& line : linesOf(own)) {
+      std::vector<std::string> row = {std::exchange(name, ""), line.pixels};
+      for (const Column& column : columns)
+        row.push_back(shortNumber(together(records, line.cases, column)));
+      table.addRow(row);
     }
   }
   return table.toString();
@@ -136,6 +154,8 @@ std::vector<Record> glintStageRecords(const BenchRun& run, const std::string& ca
   add("error", {figures.error}, "Wasserstein distance to placed microdetails, over the mean");
   add("truth_stderr", {figures.noise}, "the same of two samples of the truth");
   add("lobes_error", {figures.lobes_error}, "the same to microdetails that mirror by their lobes");
+  if (figures.tent_error)
+    add("tent_error", {*figures.tent_error}, "the same to pixels that are tents");
   if (figures.zooms) add("error_swing", {figures.error_swing});
   if (!figures.mean.replicates.empty()) {
     ReplicatedFigure bias = figures.mean;
@@ -162,14 +182,18 @@ std::string glintStageText(std::span<const Record> records) {
       "\n{}"
       "n: microdetails that reflect in a pixel, on average; 1:a: the footprint's sides; each over "
       "all "
-      "of the\n"
-      "other. s.e.: W1 of two samples of the truth. lobes: W1 where microdetails mirror by their "
-      "lobes, not\n"
-      "all or nothing. variance, motion (change per quarter of a pixel): over the truth's. dark: "
-      "share of\n"
-      "pixels below 1 % of the smooth lobe. largest: ratio to the smooth lobe over its bound 1/p. "
-      "corr.:\n"
-      "with the next pixel. lobes, tent, binomial: other forms of the truth.\n\n"
+      "of\n"
+      "the other. near: a tenth of a microdetail a pixel. W1: distance to the truth; s.e.: of two "
+      "samples\n"
+      "of it; lobes, tent: to a truth whose microdetails mirror by their lobes, not all or "
+      "nothing, "
+      "and to\n"
+      "one whose pixels are tents. variance, motion (change per quarter of a pixel): over the "
+      "truth's.\n"
+      "dark: share of pixels below 1 % of the smooth lobe. largest: ratio to the smooth lobe over "
+      "its\n"
+      "bound 1/p. corr.: with the next pixel. Last: the truth's other forms, and one binomial a "
+      "pixel.\n\n"
       "How much these move over a zoom by two, n kept: greatest less least of {} steps\n{}",
       tableOf(records, kFigures), kGlintZoomSteps, tableOf(records, kSwings));
 }
