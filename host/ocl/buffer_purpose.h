@@ -22,6 +22,7 @@ enum class BufferPurpose {
   kCosineTable,
   kSimulation,
   kMixtureFit,
+  kMicrodetails,
   kProbe,
 };
 
