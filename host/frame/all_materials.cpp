@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "host/frame/effect/glint_grids.h"
+#include "host/core/glint_grids.h"
 #include "host/frame/effects.h"
 #include "host/ocl/kernel_config.h"
 #include "host/ocl/upload.h"

@@ -3,10 +3,10 @@
 #include <algorithm>
 
 #include "host/core/float4.h"
+#include "host/core/glint_grids.h"
 #include "host/core/stopwatch.h"
 #include "host/core/trace.h"
 #include "host/frame/all_materials.h"
-#include "host/frame/effect/glint_grids.h"
 #include "host/frame/effect/lights.h"
 #include "host/frame/effect_module.h"
 #include "host/frame/effects.h"

@@ -6,8 +6,8 @@
 
 #include "host/core/error.h"
 #include "host/core/float4.h"
+#include "host/core/glint_grids.h"
 #include "host/core/planes.h"
-#include "host/frame/effect/glint_grids.h"
 #include "host/frame/effect/lights.h"
 #include "host/frame/effects.h"
 #include "host/frame/shade_arguments.h"

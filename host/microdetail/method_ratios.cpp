@@ -1,5 +1,6 @@
 #include "host/microdetail/method_ratios.h"
 
+#include "host/core/glint_grids.h"
 #include "host/microdetail/microdetail_types.h"
 #include "host/ocl/upload.h"
 
@@ -36,7 +37,8 @@ std::vector<std::vector<glm::vec3>> methodRatios(Device& device, ProgramCache& c
   const KernelArg arguments[] = {
       upload(device, allWords(lattices, stride), BufferPurpose::kMicrodetails,
              "pixels of lattices"),
-      upload(device, std::vector{material}, BufferPurpose::kMicrodetails, "a material"),
+      upload(device, std::vector{withGlintGrids(material, config.groove)},
+             BufferPurpose::kMicrodetails, "a material"),
       ratios,
       static_cast<float>(half_slope.x),
       static_cast<float>(half_slope.y),

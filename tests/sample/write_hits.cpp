@@ -10,7 +10,7 @@
 
 #include "host/core/error.h"
 #include "host/core/float4.h"
-#include "host/frame/effect/glint_grids.h"
+#include "host/core/glint_grids.h"
 #include "host/frame/effect/lights.h"
 #include "host/frame/frame_renderer.h"
 #include "host/harness/small_scenes.h"

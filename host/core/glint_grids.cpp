@@ -1,4 +1,4 @@
-#include "host/frame/effect/glint_grids.h"
+#include "host/core/glint_grids.h"
 
 #include <cmath>
 
