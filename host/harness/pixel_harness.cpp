@@ -132,6 +132,17 @@ PackedFrame flatFrame() {
   return packFrame({0, 0, 1}, {1, 0, 0}, false);
 }
 
+reference::GlintRule referenceRule(GlintMethod method) {
+  switch (method) {
+    case GlintMethod::kExact:
+      return reference::GlintRule::kExact;
+    case GlintMethod::kDistributed:
+      return reference::GlintRule::kDistributed;
+    default:
+      return reference::GlintRule::kZk16;
+  }
+}
+
 reference::Glints referenceGlints(const MaterialParams& material, bool groove) {
   reference::Glints glints;
   glints.alpha_g = {material.surface.alpha_g.x, material.surface.alpha_g.y};

@@ -54,6 +54,7 @@ reference::FixedCoordinate fixedCoordinate(double coordinate);
 PackedFrame flatFrame();
 
 /// The reference's view of the same things.
+reference::GlintRule referenceRule(GlintMethod method);
 reference::Glints referenceGlints(const MaterialParams& material, bool groove = false);
 reference::SurfacePixel referencePixel(const HandMadeFrame& frame, const HandMadePixel& pixel);
 std::vector<reference::PointLight> referenceLights(const HandMadeFrame& frame);

@@ -65,6 +65,11 @@ GridRules gridRules(const glm::dvec2& alpha_g, const glm::dvec2& alpha_l, double
   return rules;
 }
 
+double footprintArea(const PixelFootprint& footprint) {
+  const glm::dvec2 x = sane(footprint.duv_dx), y = sane(footprint.duv_dy);
+  return std::abs(x.x * y.y - x.y * y.x);
+}
+
 double cellSizeZk16(const PixelFootprint& footprint, int ka) {
   return cellSize(footprint, ka);
 }

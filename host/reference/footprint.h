@@ -23,6 +23,8 @@ struct GridRules {
   glm::dvec2 stretch{1.0};  // scale of each axis, in [2^-10, 1]. [ZK16] Sect. 4.4
   int finest_level = -30;   // the first whose cells hold a microdetail each. [ZK16] Sect. 3
 };
+/// In uv; derivatives that are no numbers count as 0.
+double footprintArea(const PixelFootprint& footprint);
 /// Step 1 of "The draws"; `density`: microdetails per unit uv area.
 GridRules gridRules(const glm::dvec2& alpha_g, const glm::dvec2& alpha_l, double density,
                     bool groove);

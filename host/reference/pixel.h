@@ -32,8 +32,11 @@ struct SurfacePixel {
   glm::dvec3 view{0, 0, 1};  // unit, world space, towards the eye
 };
 
+/// How a pixel's cells are found and drawn: kernels/glint/method_*.clh.
+enum class GlintRule { kZk16, kExact, kDistributed };
+
 struct GlintMethodOptions {
-  bool exact = false;
+  GlintRule method = GlintRule::kZk16;
   int ka = 16;
 };
 

@@ -17,6 +17,7 @@ namespace {
 
 constexpr auto kZk16 = GlintMethod::kZk16;
 constexpr auto kExact = GlintMethod::kExact;
+constexpr auto kDistributed = GlintMethod::kDistributed;
 
 struct DrawCase {
   const char* name;
@@ -40,6 +41,12 @@ constexpr DrawCase kDrawCases[] = {
     {"zk16_ka1", kZk16, {.3f, .3f}, {.03f, .03f}, 1e7f, 0, false, 1, {1e-4, 1e-2, 64}},
     {"zk16_ka64", kZk16, {.3f, .3f}, {.03f, .03f}, 1e7f, 0, false, 64, {1e-4, 1e-2, 100}},
     {"zk16_wide_lobe", kZk16, {.3f, .3f}, {.299f, .299f}, 1e6f, 1, false, 16, kUsual},
+    {"distributed_sparse", kDistributed, {.3f, .3f}, {.03f, .03f}, 1e6f, 0, false, 16, kUsual},
+    {"distributed_dense", kDistributed, {.3f, .3f}, {.03f, .03f}, 1e9f, 0, false, 16, kUsual},
+    {"distributed_varied", kDistributed, {.3f, .3f}, {.1f, .1f}, 1e6f, 2, false, 16, kUsual},
+    {"distributed_stretched", kDistributed, {.4f, .1f}, {.02f, .05f}, 1e6f, 1, false, 16, kUsual},
+    {"distributed_groove", kDistributed, {.1f, .5f}, {.1f, .02f}, 1e6f, 1, true, 16, kUsual},
+    {"distributed_near", kDistributed, {.3f, .3f}, {.2f, .2f}, 3e3f, 1, false, 16, kUsual},
     {"exact_sparse", kExact, {.3f, .3f}, {.03f, .03f}, 1e6f, 0, false, 16, kUsual},
     {"exact_dense", kExact, {.3f, .3f}, {.03f, .03f}, 1e9f, 0, false, 16, kUsual},
     {"exact_varied", kExact, {.3f, .3f}, {.1f, .1f}, 1e6f, 2, false, 16, kUsual},
@@ -79,7 +86,7 @@ Finding drawForDraw(const CheckContext& context, const DrawCase& c) {
   const ShadedPixels smooth = shadePixels(context.bench, frame, smooth_config);
   const std::vector<reference::PointLight> lights = referenceLights(frame);
   reference::GlintMethodOptions options;
-  options.exact = c.method == kExact;
+  options.method = referenceRule(c.method);
   options.ka = c.ka;
 
   Finding finding(kFlippedPixelShare);
@@ -90,7 +97,7 @@ Finding drawForDraw(const CheckContext& context, const DrawCase& c) {
                                  referenceGlints(frame.material, c.groove), lights, options);
     const double difference = std::abs(static_cast<double>(shaded.cells[i]) - expected.cells);
     finding.require(
-        difference <= (options.exact ? 2 : 0),
+        difference <= (c.method == kExact ? 2 : 0),
         fmt::format("pixel {} visits {} cells, not {}", i, shaded.cells[i], expected.cells));
     finding.require(shaded.limited[i] == expected.limited,
                     fmt::format("pixel {} is not limited as the reference is", i));
@@ -169,7 +176,8 @@ struct WidthCase {
 };
 constexpr WidthCase kWidthCases[] = {{"zk16", kZk16, false, false, false},
                                      {"zk16_groove_colour_cone", kZk16, true, true, true},
-                                     {"exact", kExact, false, false, false}};
+                                     {"exact", kExact, false, false, false},
+                                     {"distributed", kDistributed, false, true, false}};
 
 Finding sameBits(const CheckContext& context, const WidthCase& c) {
   HandMadeFrame frame;
