@@ -50,10 +50,10 @@ PixelLattice latticeOf(double aspect, int side = 64) {
 
 TEST(Microdetails, MeanAndVarianceOfBothForms) {
   for (const double aspect : {1.0, 16.0}) {
-    for (const double details : {3.0, 30.0, 3000.0}) {
+    for (const double details : {3.0, 30.0, 3000.0, 2e6}) {
       const MicrodetailSurface surface = surfaceOfCount(details);
       const LightSlopes light = lightOn(surface);
-      const int side = details > 1000 ? 24 : 128;
+      const int side = details > 1e4 ? 4 : details > 1000 ? 24 : 128;
       const MicrodetailRatios ratios = placed(latticeOf(aspect, side), surface, light);
       const double lambda = details * light.probability;
       const double pixels = side * side;

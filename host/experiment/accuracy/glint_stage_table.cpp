@@ -79,6 +79,7 @@ std::string shortNumber(std::optional<double> value) {
   if (!value || !std::isfinite(*value)) return "-";
   const double size = std::abs(*value);
   if (size < 0.00005) return "0";
+  if (size >= 1e4) return fmt::format("{:.0e}", *value);  // what is so far off needs no digits
   return size < 0.1 ? fmt::format("{:.4f}", *value)
          : size < 1 ? fmt::format("{:.3f}", *value)
                     : compactNumber(*value);
