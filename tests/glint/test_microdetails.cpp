@@ -244,9 +244,12 @@ TEST(Microdetails, ConesOfLight) {
 TEST(Microdetails, MethodsHaveTheTruthsMean) {
   KernelBench& bench = testBench();
   const MicrodetailSurface surface = surfaceOfCount(2000);
-  std::vector<PixelLattice> lattices;
-  for (int i = 0; i < 4; ++i)
-    lattices.push_back(tiledLattice({100.3 * i, 7.7 - i}, kPixelArea, 4, 0.7 * i, 32, 24));
+  std::vector<PixelLattice> lattices(4);
+  double at = 0;
+  for (PixelLattice& lattice : lattices) {
+    lattice = tiledLattice({100.3 * at, 7.7 - at}, kPixelArea, 4, 0.7 * at, 32, 24);
+    ++at;
+  }
   for (const GlintMethod method : {GlintMethod::kZk16, GlintMethod::kExact}) {
     KernelConfig config;
     config.width = 8;
