@@ -61,10 +61,10 @@ std::vector<std::uint32_t> pixelWords(const PixelLattice& lattice, std::size_t s
   };
   for (std::size_t i = 0; i < stride; ++i) {
     const std::size_t pixel = std::min(i, lattice.size() - 1);
-    const auto columns = static_cast<std::size_t>(lattice.columns);
-    const glm::dvec2 uv = lattice.centre_uv +
-                          static_cast<double>(pixel % columns) * lattice.step_x +
-                          static_cast<double>(pixel / columns) * lattice.step_y;
+    const std::size_t column = pixel % static_cast<std::size_t>(lattice.columns);
+    const std::size_t row = pixel / static_cast<std::size_t>(lattice.columns);
+    const glm::dvec2 uv = lattice.centre_uv + static_cast<double>(column) * lattice.step_x +
+                          static_cast<double>(row) * lattice.step_y;
     const glm::dvec2 whole = glm::floor(uv);
     const auto integer = [](double x) {
       return static_cast<std::uint32_t>(static_cast<std::int32_t>(x));

@@ -50,10 +50,10 @@ PixelLattice latticeOf(double aspect, int side = 64) {
 
 TEST(Microdetails, MeanAndVarianceOfBothForms) {
   for (const double aspect : {1.0, 16.0}) {
-    for (const double details : {3.0, 30.0, 3000.0}) {
+    for (const double details : {3.0, 30.0, 3000.0, 2e6}) {
       const MicrodetailSurface surface = surfaceOfCount(details);
       const LightSlopes light = lightOn(surface);
-      const int side = details > 1000 ? 24 : 128;
+      const int side = details > 1e4 ? 4 : details > 1000 ? 24 : 128;
       const MicrodetailRatios ratios = placed(latticeOf(aspect, side), surface, light);
       const double lambda = details * light.probability;
       const double pixels = side * side;
@@ -107,9 +107,10 @@ TEST(Microdetails, PlacedAndDrawnNumbersHaveOneDistribution) {
       const auto most = static_cast<std::size_t>(lambda + 3 * std::sqrt(lambda) + 1);
       const auto placed_shares =
           shares(redOf(placed(latticeOf(1, kSide), surface, light).reflecting), lambda, most);
-      const auto drawn_shares =
-          shares(binomialRatios(std::size_t{kSide} * kSide, details, light.probability, law, 7),
-                 lambda, most);
+      const auto drawn_shares = shares(
+          binomialFrames(std::size_t{kSide} * kSide, details, light.probability, 0.75, law, 7)
+              .still,
+          lambda, most);
       // Each share differs by the errors of two samples.
       for (std::size_t k = 0; k <= most; ++k) {
         const double share = 0.5 * (placed_shares[k] + drawn_shares[k]);
@@ -157,6 +158,12 @@ TEST(Microdetails, AQuarterOfAPixelKeepsThreeQuarters) {
     EXPECT_NEAR(still.mean, 1, 0.02);
     EXPECT_NEAR(still.variance * lambda, tent ? 4.0 / 9 : 1.0, 0.06);
     EXPECT_NEAR(still.correlation, tent ? 0.25 : 0.0, 0.05);
+    if (tent) continue;
+    // Numbers that are drawn change as those of placed microdetails do.
+    const BinomialFrames drawn =
+        binomialFrames(here.size(), 400, light.probability, 1 - d, CountLaw::kPoisson, 3);
+    EXPECT_NEAR(glintStatistics(drawn.still, kSide, drawn.moved).change, still.change,
+                0.05 * still.change);
   }
 }
 
@@ -244,9 +251,12 @@ TEST(Microdetails, ConesOfLight) {
 TEST(Microdetails, MethodsHaveTheTruthsMean) {
   KernelBench& bench = testBench();
   const MicrodetailSurface surface = surfaceOfCount(2000);
-  std::vector<PixelLattice> lattices;
-  for (int i = 0; i < 4; ++i)
-    lattices.push_back(tiledLattice({100.3 * i, 7.7 - i}, kPixelArea, 4, 0.7 * i, 32, 24));
+  std::vector<PixelLattice> lattices(4);
+  double at = 0;
+  for (PixelLattice& lattice : lattices) {
+    lattice = tiledLattice({100.3 * at, 7.7 - at}, kPixelArea, 4, 0.7 * at, 32, 24);
+    ++at;
+  }
   for (const GlintMethod method : {GlintMethod::kZk16, GlintMethod::kExact}) {
     KernelConfig config;
     config.width = 8;
@@ -294,8 +304,9 @@ TEST(Microdetails, StatisticsOfHandMadePixels) {
 TEST(Microdetails, WhatCannotBePlacedIsSaid) {
   EXPECT_THROW(detailCounts(0, CountLaw::kPoisson), Error);
   EXPECT_THROW(detailCounts(1e20, CountLaw::kPoisson), Error);
-  EXPECT_THROW(binomialRatios(1, 0, 0.5, CountLaw::kFixed, 1), Error);
-  EXPECT_THROW(binomialRatios(1, 10, 1.5, CountLaw::kFixed, 1), Error);
+  EXPECT_THROW(binomialFrames(1, 0, 0.5, 0.75, CountLaw::kFixed, 1), Error);
+  EXPECT_THROW(binomialFrames(1, 10, 1.5, 0.75, CountLaw::kFixed, 1), Error);
+  EXPECT_THROW(binomialFrames(1, 10, 0.5, 1.5, CountLaw::kFixed, 1), Error);
   const reference::Cone below{{0, 0, -1}, 0.1};
   EXPECT_THROW(coneSlopes(below, {0, 0, 1}, {0.3, 0.3}, {0.1, 0.1}, 16), Error);
 }

@@ -19,8 +19,8 @@ struct GlintStage {
   bool isNear() const { return micro != GlintStage().micro; }
 };
 
-/// aspect 1, 4, 16, each with lambda from 0.1 to 1000; last the near one, a tenth of a microdetail a
-/// pixel, each of which reflects one time in five.
+/// aspect 1, 4, 16, each with lambda from 0.1 to 1000; last the near one, a tenth of a microdetail
+/// a pixel, each of which reflects one time in five.
 std::vector<GlintStage> glintStages();
 
 /// "aspect=4/lambda=0.5" behind the name of a setting's case, "micro" too of the near stage; and

@@ -14,10 +14,10 @@
 namespace glintmark {
 namespace {
 
-// Microdetails that the truth of one stage may place.
-constexpr double kMostDetails = 6e8;
 constexpr int kLeastSide = 8;
 constexpr double kReplicates = kGlintReplicates;
+// Of a truth that is drawn: beyond the steps of a zoom, which seed draws that are judged.
+constexpr std::uint32_t kTruthSeed = 1000;
 
 double meanOf(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
@@ -77,24 +77,33 @@ double geometricMeanOf(std::span<const double> values) {
   return std::exp(sum / static_cast<double>(values.size()));
 }
 
-GlintJudge::GlintJudge(Device& device, ProgramCache& cache, int lanes, int side, Progress progress)
+GlintJudge::GlintJudge(Device& device, ProgramCache& cache, int lanes, int side, Progress progress,
+                       double most_details)
     : device_(device),
       cache_(cache),
       lanes_(lanes),
       side_(side),
       progress_(std::move(progress)),
+      most_details_(most_details),
       stages_(glintStages()) {
   if (side < kLeastSide || side > 256)
     throw Error(
         fmt::format("a lattice of {} pixels a side is not from {} to 256", side, kLeastSide));
 }
 
-int GlintJudge::truthSide(std::size_t stage) const {
+int GlintJudge::placeableSide(std::size_t stage) const {
   MicrodetailSurface surface;
   surface.material = glintMaterial(stages_[stage], 0);
   const double each = detailsPerPixel(glintLattice(stages_[stage], 0, 0, 1), surface);
-  const double pixels = kMostDetails / (2 * kReplicates * each);
-  return std::clamp(static_cast<int>(std::sqrt(pixels)), kLeastSide, side_);
+  return std::min(static_cast<int>(std::sqrt(most_details_ / (2 * kReplicates * each))), side_);
+}
+
+int GlintJudge::truthSide(std::size_t stage) const {
+  return std::max(placeableSide(stage), kLeastSide);
+}
+
+bool GlintJudge::isPlaced(std::size_t stage) const {
+  return placeableSide(stage) >= kLeastSide;
 }
 
 GlintJudge::Frames GlintJudge::place(std::size_t stage, int replicate, int side, PixelFilter filter,
@@ -123,16 +132,19 @@ const GlintJudge::Truth& GlintJudge::truth(std::size_t stage) {
   if (found != truths_.end()) return found->second;
   Truth made;
   const int side = truthSide(stage);
+  if (!isPlaced(stage)) made.replicates = drawn(stage, side, kTruthSeed);
   std::vector<std::vector<float>> stills, lobe_stills;
-  for (int r = 0; r < kGlintReplicates; ++r) {
-    Frames lobes;
-    made.replicates.push_back(place(stage, r, side, PixelFilter::kBox, &lobes));
-    lobe_stills.push_back(lobes.still);
-    made.lobes.push_back(std::move(lobes));
-    stills.push_back(made.replicates.back().still);
+  for (std::size_t r = 0; r < kGlintReplicates; ++r) {
+    if (isPlaced(stage)) {
+      Frames lobes;
+      made.replicates.push_back(place(stage, static_cast<int>(r), side, PixelFilter::kBox, &lobes));
+      lobe_stills.push_back(lobes.still);
+      made.lobes.push_back(std::move(lobes));
+    }
+    const Frames& frames = made.replicates[r];
+    stills.push_back(frames.still);
     std::ranges::sort(stills.back());
-    const GlintStatistics one =
-        glintStatistics(made.replicates.back().still, side, made.replicates.back().moved);
+    const GlintStatistics one = glintStatistics(frames.still, side, frames.moved);
     made.mean.mean += one.mean / kReplicates;
     made.mean.variance += one.variance / kReplicates;
     made.mean.dark += one.dark / kReplicates;
@@ -162,7 +174,8 @@ GlintFigures GlintJudge::judged(std::size_t stage, int steps,
   std::vector<double> errors, lobe_errors, tent_errors;
   GlintFigures made;
   made.zooms = steps > 1;
-  const std::vector<float>* const tent = with_tent ? &tentValues(stage) : nullptr;
+  const std::vector<float>* const tent =
+      with_tent && isPlaced(stage) ? &tentValues(stage) : nullptr;
   for (int step = 0; step < steps; ++step) {
     std::vector<std::vector<float>> stills;
     std::vector<Frames> replicates = frames(step);
@@ -170,7 +183,6 @@ GlintFigures GlintJudge::judged(std::size_t stage, int steps,
       Frames& seen = replicates[r];
       made.sane = made.sane && std::ranges::all_of(seen.still, isSaneRatio) &&
                   std::ranges::all_of(seen.moved, isSaneRatio);
-      made.moves = !seen.moved.empty();
       const GlintStatistics one = glintStatistics(seen.still, seen.columns, seen.moved);
       const auto store = [&](Grid& grid, double value) {
         grid.values[r][static_cast<std::size_t>(step)] = value;
@@ -186,13 +198,14 @@ GlintFigures GlintJudge::judged(std::size_t stage, int steps,
     if (!made.sane) return made;
     const std::vector<float> values = pooled(stills);
     errors.push_back(wassersteinDistance(values, right.values));
-    lobe_errors.push_back(wassersteinDistance(values, right.lobe_values));
+    if (!right.lobe_values.empty())
+      lobe_errors.push_back(wassersteinDistance(values, right.lobe_values));
     if (tent != nullptr) tent_errors.push_back(wassersteinDistance(values, *tent));
   }
   made.error = meanOf(errors);
   made.error_swing = *std::ranges::max_element(errors) - *std::ranges::min_element(errors);
   made.noise = right.noise;
-  made.lobes_error = meanOf(lobe_errors);
+  if (!lobe_errors.empty()) made.lobes_error = meanOf(lobe_errors);
   if (tent != nullptr) made.tent_error = meanOf(tent_errors);
   made.mean = mean.figure();
   made.variance_ratio = variance.figure(over(1, right.mean.variance));
@@ -245,30 +258,36 @@ GlintFigures GlintJudge::method(const KernelConfig& config, std::size_t stage, b
       with_tent);
 }
 
-// Draws like a method's: at every step of the zoom, as many pixels. So its swing is what chance
-// does.
-std::vector<GlintJudge::Frames> GlintJudge::drawn(std::size_t stage, int step) const {
+std::vector<GlintJudge::Frames> GlintJudge::drawn(std::size_t stage, int side,
+                                                  std::uint32_t seed) const {
   const double p = glintLight(stages_[stage]).probability;
-  const auto pixels = static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_);
+  const auto pixels = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
   std::vector<Frames> frames;
-  for (int r = 0; r < kGlintReplicates; ++r) {
-    const auto seed = static_cast<std::uint32_t>(step * kGlintReplicates + r);
-    frames.push_back(
-        {binomialRatios(pixels, stages_[stage].lambda / p, p, CountLaw::kFixed, seed), {}, side_});
+  for (std::uint32_t r = 0; r < kGlintReplicates; ++r) {
+    const BinomialFrames draws =
+        binomialFrames(pixels, stages_[stage].lambda / p, p, 1 - kGlintMotion_px, CountLaw::kFixed,
+                       seed * kGlintReplicates + r);
+    frames.push_back({draws.still, draws.moved, side});
   }
   return frames;
 }
 
 GlintFigures GlintJudge::truthForm(const std::string& form, std::size_t stage) {
+  // Draws like a method's: at every step of the zoom, as many pixels. So its swing is what chance
+  // does.
+  if (form == "binomial")
+    return judged(
+        stage, kGlintZoomSteps,
+        [&](int step) { return drawn(stage, side_, static_cast<std::uint32_t>(step)); }, true);
+  if (!isPlaced(stage))
+    throw Error(fmt::format("microdetails of {} reflecting ones a pixel are too many to place",
+                            stages_[stage].lambda));
   if (form == "lobes")
     return judged(
         stage, 1, [&](int) { return truth(stage).lobes; }, true);
   if (form == "tent")
     return judged(
         stage, 1, [&](int) { return tentFrames(stage); }, true);
-  if (form == "binomial")
-    return judged(
-        stage, kGlintZoomSteps, [&](int step) { return drawn(stage, step); }, true);
   throw Error(fmt::format("the truth has no form '{}'", form));
 }
 

@@ -1,5 +1,6 @@
 // Methods of glints against the truth of placed microdetails, over all stages of glint_axis.h.
 #pragma once
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
@@ -25,11 +26,11 @@ struct ReplicatedFigure {
 
 /// One stage. Distances and changes are in units of the smooth lobe.
 struct GlintFigures {
-  double error = 0;                  // W1 to the truth, mean over the zoom
-  double error_swing = 0;            // greatest less least over the zoom
-  double noise = 0;                  // W1 of two samples of the truth as large as those compared
-  double lobes_error = 0;            // W1 to the truth whose microdetails mirror by their lobes
-  std::optional<double> tent_error;  // W1 to the truth seen through a tent
+  double error = 0;                   // W1 to the truth, mean over the zoom
+  double error_swing = 0;             // greatest less least over the zoom
+  double noise = 0;                   // W1 of two samples of the truth as large as those compared
+  std::optional<double> lobes_error;  // W1 to the truth whose microdetails mirror by their lobes
+  std::optional<double> tent_error;   // W1 to the truth seen through a tent
   ReplicatedFigure mean;
   ReplicatedFigure variance_ratio;  // over the truth's
   ReplicatedFigure dark;            // share of pixels
@@ -37,8 +38,8 @@ struct GlintFigures {
   ReplicatedFigure correlation;     // over one pixel
   ReplicatedFigure motion_ratio;    // change per quarter pixel over the truth's
   double truth_dark = 0, truth_largest = 0, truth_correlation = 0;
-  bool zooms = true, moves = true;  // else there is no swing, and no motion
-  bool sane = true;                 // no ratio is negative or not finite
+  bool zooms = true;  // else there is no swing
+  bool sane = true;   // no ratio is negative or not finite
 };
 
 /// The truth is that of [ZK16] Eq. 7, which all methods set out to compute: each microdetail
@@ -48,9 +49,13 @@ class GlintJudge {
   /// Says what it is doing; called often, may throw.
   using Progress = std::function<void(const std::string& what)>;
 
-  /// Lattices of `side` x `side` pixels, 8 to 256; of the truth, less where pixels hold so many
-  /// microdetails that it would take minutes.
-  GlintJudge(Device& device, ProgramCache& cache, int lanes, int side, Progress progress);
+  /// Lattices of `side` x `side` pixels, 8 to 256; of the truth, less where `most_details` is not
+  /// enough for so many, and where it is not enough for 8 either, the truth is drawn: one binomial
+  /// a pixel, and no lobes or tents.
+  GlintJudge(Device& device, ProgramCache& cache, int lanes, int side, Progress progress,
+             double most_details = kMostDetails);
+  /// That are placed for the truth of one stage: some seconds on two cores.
+  static constexpr double kMostDetails = 6e8;
 
   /// By a program of `config` (glint on, no size variation). A truth with tents takes four times as
   /// long to place.
@@ -73,18 +78,23 @@ class GlintJudge {
   };
   const Truth& truth(std::size_t stage);
   Frames place(std::size_t stage, int replicate, int side, PixelFilter filter, Frames* lobes);
+  // How many pixels a side can be placed, at most `side_`; not below 8 in truthSide().
+  int placeableSide(std::size_t stage) const;
   int truthSide(std::size_t stage) const;
+  bool isPlaced(std::size_t stage) const;
   // `frames` of all replicates at a step of the zoom.
   GlintFigures judged(std::size_t stage, int steps,
                       const std::function<std::vector<Frames>(int step)>& frames, bool with_tent);
   const std::vector<Frames>& tentFrames(std::size_t stage);
   const std::vector<float>& tentValues(std::size_t stage);
-  std::vector<Frames> drawn(std::size_t stage, int step) const;
+  // One binomial a pixel, of all replicates; another `seed`, other draws.
+  std::vector<Frames> drawn(std::size_t stage, int side, std::uint32_t seed) const;
 
   Device& device_;
   ProgramCache& cache_;
   int lanes_, side_;
   Progress progress_;
+  double most_details_;
   std::vector<GlintStage> stages_;
   std::map<std::size_t, Truth> truths_;
   std::map<std::size_t, std::vector<Frames>> tents_;

@@ -79,6 +79,7 @@ std::string shortNumber(std::optional<double> value) {
   if (!value || !std::isfinite(*value)) return "-";
   const double size = std::abs(*value);
   if (size < 0.00005) return "0";
+  if (size >= 1e4) return fmt::format("{:.0e}", *value);  // what is so far off needs no digits
   return size < 0.1 ? fmt::format("{:.4f}", *value)
          : size < 1 ? fmt::format("{:.3f}", *value)
                     : compactNumber(*value);
@@ -153,7 +154,9 @@ std::vector<Record> glintStageRecords(const BenchRun& run, const std::string& ca
   };
   add("error", {figures.error}, "Wasserstein distance to placed microdetails, over the mean");
   add("truth_stderr", {figures.noise}, "the same of two samples of the truth");
-  add("lobes_error", {figures.lobes_error}, "the same to microdetails that mirror by their lobes");
+  if (figures.lobes_error)
+    add("lobes_error", {*figures.lobes_error},
+        "the same to microdetails that mirror by their lobes");
   if (figures.tent_error)
     add("tent_error", {*figures.tent_error}, "the same to pixels that are tents");
   if (figures.zooms) add("error_swing", {figures.error_swing});
@@ -172,7 +175,7 @@ std::vector<Record> glintStageRecords(const BenchRun& run, const std::string& ca
   add("truth_largest_of_bound", {figures.truth_largest});
   add_replicates("correlation", "correlation_swing", figures.correlation);
   add("truth_correlation", {figures.truth_correlation});
-  if (figures.moves) add_replicates("motion_ratio", "motion_swing", figures.motion_ratio);
+  add_replicates("motion_ratio", "motion_swing", figures.motion_ratio);
   return records;
 }
 
