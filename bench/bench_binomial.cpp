@@ -15,15 +15,16 @@ namespace {
 void draw(benchmark::State& state, GlintMethod method, const std::vector<BinomialCase>& cases,
           int lanes) {
   std::mt19937 random(1);
-  std::vector<float> u(kBinomialDraws), n(kBinomialDraws), p(kBinomialDraws);
+  std::vector<std::uint32_t> bits(kBinomialDraws);
+  std::vector<float> n(kBinomialDraws), p(kBinomialDraws);
   for (std::size_t i = 0; i < kBinomialDraws; ++i) {
     const BinomialCase& c = cases[random() % cases.size()];
-    u[i] = static_cast<float>((static_cast<double>(random()) + 0.5) * 0x1p-32);
+    bits[i] = static_cast<std::uint32_t>(random());
     n[i] = binomialTrials(c, random);
     p[i] = static_cast<float>(c.p);
   }
   timeKernel(state, "probeBinomial", kBinomialDraws, "draw",
-             [&] { probeBinomial(deviceBench(), u, n, p, method, lanes); });
+             [&] { probeBinomial(deviceBench(), bits, n, p, method, lanes); });
 }
 
 void registerAll() {

@@ -12,21 +12,24 @@ namespace {
 constexpr int kPixels = 1 << 16;
 constexpr int kKa = 16;
 
-void make(benchmark::State& state, GlintMethod method, const glm::dvec2& stretch, int lanes) {
+void make(benchmark::State& state, GlintMethod method, float stretch, int lanes) {
+  GlintMaterial glints{};
+  glints.gamma = {stretch, 1};
+  glints.finest_level = -30;
   std::vector<reference::PixelFootprint> footprints;
   for (const HandMadePixel& pixel : randomPixels(kPixels, {1e-4, 1e-2, 20}))
     footprints.push_back(pixel.footprint);
   timeKernel(state, "probeFootprint", kPixels, "px",
-             [&] { probeFootprints(deviceBench(), footprints, stretch, method, kKa, lanes); });
+             [&] { probeFootprints(deviceBench(), footprints, glints, method, kKa, lanes); });
 }
 
 void registerAll() {
   for (const auto& [name, method] :
        {std::pair("zk16", GlintMethod::kZk16), std::pair("exact", GlintMethod::kExact)})
-    for (const double stretch : {1.0, 0.25})
+    for (const float stretch : {1.0f, 0.25f})
       registerLanes(fmt::format("footprint/{}/stretch:{}", name, stretch),
                     [method = method, stretch](benchmark::State& state, int lanes) {
-                      make(state, method, {stretch, 1}, lanes);
+                      make(state, method, stretch, lanes);
                     });
 }
 

@@ -28,7 +28,8 @@ typedef struct GlintMaterial {
   float size_variation;            // standard deviation of the microdetail count factor, >= 0
   float4 palette[GM_MAX_PALETTE];  // rgb albedo of a microdetail; w unused
   uint palette_count;              // colours in palette; 0 = uniform colour wheel
-  uint unused[3];                  // 0
+  int finest_level;  // of grids, see footprint.clh; with gamma, by setGlintGrids of glint_grids.h
+  float2 gamma;      // compression of the grids along u and v, (0, 1] [ZK16] Sect. 4.4
 } GlintMaterial;
 
 // One material as a launch reads it.

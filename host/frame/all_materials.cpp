@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "host/core/glint_grids.h"
 #include "host/frame/effects.h"
 #include "host/ocl/kernel_config.h"
 #include "host/ocl/upload.h"
@@ -13,7 +14,7 @@ Buffer uploadMaterials(Device& device, const Scene& scene, const ShadingOptions&
                        int lanes) {
   std::vector<MaterialParams> materials;
   for (const Material& material : scene.materials) {
-    materials.push_back(material.params);
+    materials.push_back(withGlintGrids(material.params, material.has_grooves));
     materials.back().surface.effects = effectBits(configFor(material, scene, options, lanes));
   }
   return upload(device, materials, BufferPurpose::kMaterials);

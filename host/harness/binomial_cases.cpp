@@ -24,15 +24,16 @@ float binomialTrials(const BinomialCase& c, std::mt19937& random) {
 std::vector<float> binomialDraws(KernelBench& bench, const BinomialCase& c, GlintMethod method,
                                  bool stratified, int lanes) {
   std::mt19937 random(11);
-  std::vector<float> u(kBinomialDraws), n(kBinomialDraws);
+  std::vector<std::uint32_t> bits(kBinomialDraws);
+  std::vector<float> n(kBinomialDraws);
   const std::vector<float> p(kBinomialDraws, static_cast<float>(c.p));
   for (std::size_t i = 0; i < kBinomialDraws; ++i) {
-    const double uniform = stratified ? (static_cast<double>(i) + 0.5) / kBinomialDraws
-                                      : (static_cast<double>(random()) + 0.5) * 0x1p-32;
-    u[i] = static_cast<float>(uniform);
+    constexpr std::size_t kStratum = (std::size_t{1} << 32) / kBinomialDraws;
+    bits[i] = stratified ? static_cast<std::uint32_t>(i * kStratum + kStratum / 2)
+                         : static_cast<std::uint32_t>(random());
     n[i] = binomialTrials(c, random);
   }
-  return probeBinomial(bench, u, n, p, method, lanes);
+  return probeBinomial(bench, bits, n, p, method, lanes);
 }
 
 double floatSpacing(double x) {

@@ -6,6 +6,7 @@
 
 #include "host/core/error.h"
 #include "host/core/float4.h"
+#include "host/core/glint_grids.h"
 #include "host/core/planes.h"
 #include "host/frame/effect/light_taps.h"
 #include "host/frame/effect/lights.h"
@@ -72,10 +73,11 @@ ShadedPixels shadePixels(KernelBench& bench, const HandMadeFrame& frame, KernelC
 
   Buffer radiance(device, stride * 12, BufferPurpose::kProbe, "radiance");
   Buffer counts(device, stride * 4, BufferPurpose::kProbe, "counts");
-  ShadeArguments arguments({.planes = probeData(bench, planeWords(frame, config.planes, stride)),
-                            .frame = probeData(bench, std::vector{paramsOf(frame, stride)}),
-                            .material = probeData(bench, std::vector{frame.material}),
-                            .lights = probeData(bench, prepareLights(frame.lights))});
+  ShadeArguments arguments(
+      {.planes = probeData(bench, planeWords(frame, config.planes, stride)),
+       .frame = probeData(bench, std::vector{paramsOf(frame, stride)}),
+       .material = probeData(bench, std::vector{withGlintGrids(frame.material, config.groove)}),
+       .lights = probeData(bench, prepareLights(frame.lights))});
   if (frame.scatter) arguments.add("scatter", probeData(bench, std::vector{*frame.scatter}));
   if (config.multiscatter != Multiscatter::kOff) {
     const PreparedTaps taps = prepareTaps(frame.lights);
@@ -134,17 +136,15 @@ PackedFrame flatFrame() {
   return packFrame({0, 0, 1}, {1, 0, 0}, false);
 }
 
-glm::dvec2 deviceStretch(KernelBench& bench, const MaterialParams& material) {
-  Device& device = bench.device;
-  const std::vector<float4> alphas = {{material.surface.alpha_g.x, material.surface.alpha_g.y,
-                                       material.glints.alpha_l.x, material.glints.alpha_l.y}};
-  Buffer out(device, 8, BufferPurpose::kProbe, "stretch");
-  const KernelArg args[] = {probeData(bench, alphas), out, std::uint32_t{1}};
-  probeKernel(bench, "probes/probe_glint.cl", "probeStretch", "-D WIDTH=1")
-      .launch(args, 1, kLocalSize);
-  float2 stretch;
-  out.read(&stretch, 8);
-  return {stretch.x, stretch.y};
+reference::GlintRule referenceRule(GlintMethod method) {
+  switch (method) {
+    case GlintMethod::kExact:
+      return reference::GlintRule::kExact;
+    case GlintMethod::kDistributed:
+      return reference::GlintRule::kDistributed;
+    default:
+      return reference::GlintRule::kZk16;
+  }
 }
 
 reference::Glints referenceGlints(const MaterialParams& material, bool groove) {

@@ -53,10 +53,8 @@ reference::FixedCoordinate fixedCoordinate(double coordinate);
 /// Frame of the plane z = 0 with tangent +x.
 PackedFrame flatFrame();
 
-/// The kernels' grid stretch of a material (its bits are taken over by the reference).
-glm::dvec2 deviceStretch(KernelBench& bench, const MaterialParams& material);
-
 /// The reference's view of the same things.
+reference::GlintRule referenceRule(GlintMethod method);
 reference::Glints referenceGlints(const MaterialParams& material, bool groove = false);
 reference::SurfacePixel referencePixel(const HandMadeFrame& frame, const HandMadePixel& pixel);
 std::vector<reference::PointLight> referenceLights(const HandMadeFrame& frame);

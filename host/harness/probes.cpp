@@ -70,7 +70,7 @@ RandomProbe probeRandom(KernelBench& bench, const std::vector<std::uint32_t>& bi
 
 FootprintProbe probeFootprints(KernelBench& bench,
                                const std::vector<reference::PixelFootprint>& footprints,
-                               const glm::dvec2& stretch, GlintMethod method, int ka, int width) {
+                               const GlintMaterial& glints, GlintMethod method, int ka, int width) {
   const std::size_t n = footprints.size(), padded = paddedCount(n);
   std::vector<std::uint32_t> planes(8 * padded);
   for (std::size_t i = 0; i < padded; ++i) {
@@ -90,23 +90,23 @@ FootprintProbe probeFootprints(KernelBench& bench,
   launch(bench, "probes/probe_glint.cl", "probeFootprint",
          fmt::format("-D GLINT_METHOD={} -D KA={}", choiceName(method), ka), width,
          {paddedData(bench, planes), out, static_cast<std::uint32_t>(padded),
-          static_cast<float>(stretch.x), static_cast<float>(stretch.y)},
+          probeData(bench, std::vector{glints})},
          padded);
   return {download<float>(out, 0, n), download<float>(out, padded, n),
           download<float>(out, 2 * padded, n), download<float>(out, 3 * padded, n)};
 }
 
-std::vector<float> probeBinomial(KernelBench& bench, const std::vector<float>& u,
+std::vector<float> probeBinomial(KernelBench& bench, const std::vector<std::uint32_t>& bits,
                                  const std::vector<float>& n, const std::vector<float>& p,
                                  GlintMethod method, int width) {
-  const std::size_t padded = paddedCount(u.size());
+  const std::size_t padded = paddedCount(bits.size());
   Buffer out = makeOutput(bench, padded);
   launch(bench, "probes/probe_binomial.cl", "probeBinomial",
          fmt::format("-D GLINT_METHOD={}", choiceName(method)), width,
-         {paddedData(bench, u), paddedData(bench, n), paddedData(bench, p), out,
+         {paddedData(bench, bits), paddedData(bench, n), paddedData(bench, p), out,
           static_cast<std::uint32_t>(padded)},
          padded);
-  return download<float>(out, 0, u.size());
+  return download<float>(out, 0, bits.size());
 }
 
 }  // namespace glintmark

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "host/core/shared_types.h"
 #include "host/harness/kernel_bench.h"
 #include "host/ocl/kernel_config.h"
 #include "host/reference/footprint.h"
@@ -41,13 +42,15 @@ RandomProbe probeRandom(KernelBench& bench, const std::vector<std::uint32_t>& bi
 struct FootprintProbe {
   std::vector<float> fine_level, coarse_weight, extent_u, extent_v;
 };
-/// Which grids a footprint meets, and its box [uv] after stretching by `stretch`; K_a as given.
+/// Which grids a footprint meets, and its box [uv] after stretching; K_a and the material's
+/// compression and finest level as given.
 FootprintProbe probeFootprints(KernelBench& bench,
                                const std::vector<reference::PixelFootprint>& footprints,
-                               const glm::dvec2& stretch, GlintMethod method, int ka, int width);
+                               const GlintMaterial& glints, GlintMethod method, int ka, int width);
 
-/// Number of successes at P(more) = u among n trials of probability p.
-std::vector<float> probeBinomial(KernelBench& bench, const std::vector<float>& u,
+/// Number of successes among n trials of probability p, where P(more) is the uniform number of the
+/// random bits.
+std::vector<float> probeBinomial(KernelBench& bench, const std::vector<std::uint32_t>& bits,
                                  const std::vector<float>& n, const std::vector<float>& p,
                                  GlintMethod method, int width);
 

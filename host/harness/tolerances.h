@@ -48,6 +48,11 @@ inline constexpr double kExpansionSigmas = 0.01;
 /// error of that mean.
 inline constexpr double kEnergyTolerance = 0.01;
 
+/// Share of pixels that a relative step of 4e-6 in the probability may change: some twenty cells
+/// with draws of mean 32 and less each change with that step times the mean, 2.6e-3, and single
+/// precision moves thresholds by as much again.
+inline constexpr double kCrossingShare = 6e-3;
+
 /// The smooth lobe under a cone of light, relative to the integral or to the brightest of that
 /// view: quadrature of up to 8 x 8 points over a Gaussian leaves 1.4 %, and where the horizon cuts
 /// a cone wider than a lobe of any roughness, its corner falls between the points.

@@ -40,6 +40,8 @@ std::string_view purposeName(BufferPurpose purpose) {
       return "the simulation";
     case BufferPurpose::kMixtureFit:
       return "the fit of mixtures";
+    case BufferPurpose::kMicrodetails:
+      return "the microdetails";
     case BufferPurpose::kProbe:
       return "a probe's values";
   }

@@ -23,6 +23,7 @@ enum class BufferPurpose {
   kCosineTable,
   kSimulation,
   kMixtureFit,
+  kMicrodetails,
   kProbe,
 };
 

@@ -7,12 +7,13 @@ namespace glintmark::reference {
 /// Smallest k with P(K > k) <= u for K binomial of `count` and `p`; u in (0, 1]. By Boost.Math.
 std::int64_t upperQuantile(double u, std::int64_t count, double p);
 
-/// Step 8 of "The draws" in kernels/README.md for method `exact`: upperQuantile, through the
-/// complement above p = 1/2.
+/// Step 8 of "The draws" in kernels/README.md for method `exact`: upperQuantile, up to a mean of 32
+/// and from 24 on moving to the second-order Cornish-Fisher expansion; above p = 1/2 the
+/// complement.
 std::int64_t drawExact(double u, std::int64_t count, double p);
 
-/// The same for method `zk16`: exact up to a mean of 5 and 16 terms, beyond these the exponential
-/// tail and beyond that mean the normal distribution. [ZK16] Sect. 4.3
+/// The same for method `zk16`: 5 and 3.75, first order, and beyond 16 terms the exponential tail.
+/// [ZK16] Sect. 4.3
 std::int64_t drawZk16(double u, std::int64_t count, double p);
 
 }  // namespace glintmark::reference

@@ -47,6 +47,7 @@ void cellRange(const Polygon& polygon, int axis, double& first, double& last) {
 }
 
 constexpr double kLeastArea = 1e-6;        // of a cell, for a cell to count as touched
+constexpr double kLeastSide = 0x1p-8;      // of the least footprint, in cells of the finer grid
 constexpr double kMostColumns = 4096;      // per grid
 constexpr double kMostAspect = 4096;       // slimmer footprints are widened
 constexpr double kLeastEdge_uv = 0x1p-28;  // uv; shorter edge vectors have no direction
@@ -65,6 +66,15 @@ PixelFootprint widened(const PixelFootprint& footprint) {
   box.duv_dx = longestEntry(longer) < kLeastEdge_uv ? glm::dvec2(extent, 0) : longer;
   box.duv_dy = glm::normalize(glm::dvec2(-box.duv_dx.y, box.duv_dx.x)) * cellSizeExact(footprint);
   return box;
+}
+
+// A footprint of less area than a square of side `least` becomes a box.
+void widenSpeck(GridFootprint& grid, double least) {
+  const glm::dvec2 x = grid.edge_x, y = grid.edge_y;
+  if (std::abs(x.x * y.y - x.y * y.x) >= least * least) return;
+  const glm::dvec2 box = glm::max(glm::max(glm::abs(x), glm::abs(y)), glm::dvec2(least));
+  grid.edge_x = {box.x, 0};
+  grid.edge_y = {0, box.y};
 }
 
 void visitGridExact(const GridFootprint& grid, GridVisit& visit) {
@@ -95,10 +105,14 @@ void visitGridExact(const GridFootprint& grid, GridVisit& visit) {
 
 }  // namespace
 
-std::vector<GridVisit> visitExact(const PixelFootprint& footprint, const glm::dvec2& stretch) {
-  std::vector<GridVisit> grids = gridsFor(cellSizeExact(footprint));
+std::vector<GridVisit> visitExact(const PixelFootprint& footprint, const GridRules& rules) {
+  std::vector<GridVisit> grids = gridsFor(cellSizeExact(footprint), rules.finest_level);
   const PixelFootprint covered = widened(footprint);
-  for (GridVisit& visit : grids) visitGridExact(inGrid(covered, stretch, visit.level), visit);
+  for (GridVisit& visit : grids) {
+    GridFootprint grid = inGrid(covered, rules.stretch, visit.level);
+    widenSpeck(grid, std::ldexp(kLeastSide, grids[0].level - visit.level));
+    visitGridExact(grid, visit);
+  }
   return grids;
 }
 

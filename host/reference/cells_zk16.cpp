@@ -67,10 +67,10 @@ void visitGridZk16(const GridFootprint& grid, int ka, GridVisit& visit) {
 
 }  // namespace
 
-std::vector<GridVisit> visitZk16(const PixelFootprint& footprint, const glm::dvec2& stretch,
-                                 int ka) {
-  std::vector<GridVisit> grids = gridsFor(cellSizeZk16(footprint, ka));
-  for (GridVisit& visit : grids) visitGridZk16(inGrid(footprint, stretch, visit.level), ka, visit);
+std::vector<GridVisit> visitZk16(const PixelFootprint& footprint, const GridRules& rules, int ka) {
+  std::vector<GridVisit> grids = gridsFor(cellSizeZk16(footprint, ka), rules.finest_level);
+  for (GridVisit& visit : grids)
+    visitGridZk16(inGrid(footprint, rules.stretch, visit.level), ka, visit);
   return grids;
 }
 

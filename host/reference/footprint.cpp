@@ -16,6 +16,7 @@ constexpr double kDerivativeLimit = 0x1p30;
 constexpr double kLeastExtent = 0x1p-28;
 constexpr double kMostExtent = 0x1p29;
 constexpr double kMostExactAspect = 4096;
+constexpr int kFinestLevel = -30, kCoarsestLevel = 30;
 
 double sane(double derivative) {
   return std::abs(derivative) < kDerivativeLimit ? derivative : 0.0;  // false for NaN
@@ -50,12 +51,23 @@ void split(FixedCoordinate c, std::int32_t offset, double stretch, int level, st
 
 }  // namespace
 
-glm::dvec2 gridStretch(const glm::dvec2& alpha_g, const glm::dvec2& alpha_l) {
-  const glm::dvec2 m = mesoRoughness(alpha_g, alpha_l);
+GridRules gridRules(const glm::dvec2& alpha_g, const glm::dvec2& alpha_l, double density,
+                    bool groove) {
+  const glm::dvec2 m = mesoRoughness(alpha_g, groove ? glm::dvec2(0, alpha_l.y) : alpha_l);
   const auto rounded = [](double gamma) {
     return std::clamp(std::round(gamma * kStretchUnit) / kStretchUnit, kLeastStretch, 1.0);
   };
-  return {rounded(m.x / m.y), rounded(m.y / m.x)};
+  GridRules rules;
+  rules.stretch = {rounded(m.x / m.y), rounded(m.y / m.x)};
+  const double per_unit = density / (rules.stretch.x * rules.stretch.y);
+  rules.finest_level = std::clamp(static_cast<int>(std::ceil(-0.5 * std::log2(per_unit))),
+                                  kFinestLevel, kCoarsestLevel - 1);
+  return rules;
+}
+
+double footprintArea(const PixelFootprint& footprint) {
+  const glm::dvec2 x = sane(footprint.duv_dx), y = sane(footprint.duv_dy);
+  return std::abs(x.x * y.y - x.y * y.x);
 }
 
 double cellSizeZk16(const PixelFootprint& footprint, int ka) {
@@ -76,8 +88,8 @@ GridFootprint inGrid(const PixelFootprint& footprint, const glm::dvec2& stretch,
   return grid;
 }
 
-std::vector<GridVisit> gridsFor(double cell_size) {
-  const double f = std::log2(cell_size);
+std::vector<GridVisit> gridsFor(double cell_size, int finest_level) {
+  const double f = std::max(std::log2(cell_size), static_cast<double>(finest_level));
   const double level = std::floor(f);
   std::vector<GridVisit> grids(2);
   grids[0].level = static_cast<int>(level);

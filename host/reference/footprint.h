@@ -18,8 +18,16 @@ struct PixelFootprint {
   glm::dvec2 duv_dx{}, duv_dy{};  // uv per pixel
 };
 
-/// Step 1 of "The draws": scale of each axis, in [2^-10, 1]. [ZK16] Sect. 4.4
-glm::dvec2 gridStretch(const glm::dvec2& alpha_g, const glm::dvec2& alpha_l);
+/// What the grids of one material have in common.
+struct GridRules {
+  glm::dvec2 stretch{1.0};  // scale of each axis, in [2^-10, 1]. [ZK16] Sect. 4.4
+  int finest_level = -30;   // the first whose cells hold a microdetail each. [ZK16] Sect. 3
+};
+/// In uv; derivatives that are no numbers count as 0.
+double footprintArea(const PixelFootprint& footprint);
+/// Step 1 of "The draws"; `density`: microdetails per unit uv area.
+GridRules gridRules(const glm::dvec2& alpha_g, const glm::dvec2& alpha_l, double density,
+                    bool groove);
 
 /// One visited cell of one grid.
 struct Cell {
@@ -54,13 +62,13 @@ struct GridFootprint {
 };
 GridFootprint inGrid(const PixelFootprint& footprint, const glm::dvec2& stretch, int level);
 
-/// Levels floor(log2 size) and one above, with their mip weights; no cells yet.
-std::vector<GridVisit> gridsFor(double cell_size);
+/// Levels floor(log2 size) and one above, none below the finest, with their mip weights; no cells
+/// yet.
+std::vector<GridVisit> gridsFor(double cell_size, int finest_level);
 
 /// Cells of both grids by method zk16.
-std::vector<GridVisit> visitZk16(const PixelFootprint& footprint, const glm::dvec2& stretch,
-                                 int ka);
+std::vector<GridVisit> visitZk16(const PixelFootprint& footprint, const GridRules& rules, int ka);
 /// Cells of both grids by method exact; weights are areas in cells.
-std::vector<GridVisit> visitExact(const PixelFootprint& footprint, const glm::dvec2& stretch);
+std::vector<GridVisit> visitExact(const PixelFootprint& footprint, const GridRules& rules);
 
 }  // namespace glintmark::reference

@@ -22,8 +22,8 @@ std::int32_t floorToIndex(double x) {
   return static_cast<std::int32_t>(std::floor(std::clamp(x, -0x1p31, 0x1p31 - 1.0)));
 }
 
-// Mean above which some method rounds a normal variate; the smallest of the methods' limits.
-constexpr double kMostExactMean = 5;
+// Mean above which some method rounds a real number; the smallest of the methods' limits.
+constexpr double kMostExactMean = 3.75;
 
 // What the draws of one pixel and light have in common.
 struct LightDraw {
@@ -34,31 +34,80 @@ struct LightDraw {
   bool exact;
 };
 
-CellContent contentOf(const Cell& cell, int level, const LightDraw& draw) {
-  const double mean =
-      std::ldexp(draw.glints.density, 2 * level) / (draw.stretch.x * draw.stretch.y);
-  return cellContent(pairSeed(cellSeed(cell.u, cell.v), draw.half), mean,
-                     draw.glints.size_variation);
+double weightOf(const GridVisit& grid) {
+  double weight = 0;
+  for (const Cell& cell : grid.cells) weight += cell.weight;
+  return weight;
+}
+
+std::int64_t drawn(std::uint32_t d, std::int64_t count, const LightDraw& draw) {
+  const double u = uniformOf(d);
+  return draw.exact ? drawExact(u, count, draw.probability) : drawZk16(u, count, draw.probability);
+}
+
+bool roundsReals(double count, double p) {
+  return count * std::min(p, 1.0 - p) > kMostExactMean;
 }
 
 // Adds one grid's share of reflecting microdetails, relative to its expectation: Listing 1, lines
 // 10 to 24.
 double gridRatio(const GridVisit& grid, const LightDraw& draw, double& rounding) {
-  double sum = 0, weight = 0;
-  for (const Cell& cell : grid.cells) weight += cell.weight;
+  const double weight = weightOf(grid), p = draw.probability;
   if (weight <= 0) return 0;
-  const double p = draw.probability;
+  const double v = draw.glints.size_variation;
+  const double mean =
+      std::min(std::ldexp(draw.glints.density, 2 * grid.level) / (draw.stretch.x * draw.stretch.y),
+               mostExpected(v));
+  double sum = 0;
   for (const Cell& cell : grid.cells) {
     if (cell.weight <= 0) continue;
-    const CellContent content = contentOf(cell, grid.level, draw);
-    const std::int64_t k = draw.exact ? drawExact(content.draw, content.count, p)
-                                      : drawZk16(content.draw, content.count, p);
-    const double one = cell.weight / weight / (content.expected * p);
-    sum += one * static_cast<double>(k);
-    if (content.expected * std::min(p, 1.0 - p) > kMostExactMean)
+    const std::uint32_t d = pairSeed(cellSeed(cell.u, cell.v), draw.half);
+    const auto count = std::max<std::int64_t>(wholeNumber(d, mean * sizeFactor(d, v)), 1);
+    const double one = cell.weight / weight / (static_cast<double>(count) * p);
+    sum += one * static_cast<double>(drawn(d, count, draw));
+    if (roundsReals(static_cast<double>(count), p))
       rounding = std::max(rounding, grid.mip_weight * one);
   }
   return grid.mip_weight * sum;
+}
+
+// The same of both grids by method distributed, which shares out `microdetails` among their cells.
+double distributedRatio(std::span<const GridVisit> grids, double microdetails,
+                        const LightDraw& draw, double& rounding) {
+  struct Share {
+    std::uint32_t d;
+    double factor, expected;
+    std::int64_t count;
+  };
+  std::vector<Share> shares;
+  const double v = draw.glints.size_variation, p = draw.probability;
+  double all = 0, most = 0;
+  for (const GridVisit& grid : grids) {
+    const double weight = weightOf(grid);
+    for (const Cell& cell : grid.cells) {
+      const auto salt = static_cast<std::uint32_t>(grid.level) * 0x632BE5ABu;
+      const std::uint32_t d = pairSeed(cellSeed(cell.u, cell.v, salt), draw.half);
+      Share share = {d, sizeFactor(d, v), 0, 0};
+      share.expected = grid.mip_weight * cell.weight / weight * microdetails * share.factor;
+      share.count = wholeNumber(d, share.expected);
+      all += static_cast<double>(share.count) / share.factor;
+      most = std::max(most, share.expected);
+      shares.push_back(share);
+    }
+  }
+  if (all == 0) {  // the cell with the largest share gets the one there is
+    for (Share& share : shares) {
+      share.count = share.expected * 1.00001 >= most ? 1 : 0;
+      all += static_cast<double>(share.count) / share.factor;
+    }
+  }
+  double sum = 0;
+  for (const Share& share : shares) {
+    const double one = 1 / (share.factor * all * p);
+    sum += one * static_cast<double>(drawn(share.d, share.count, draw));
+    if (roundsReals(static_cast<double>(share.count), p)) rounding = std::max(rounding, one);
+  }
+  return sum;
 }
 
 }  // namespace
@@ -74,10 +123,11 @@ HalfVectorIndex halfVectorIndex(const glm::dvec3& half, const Glints& glints) {
 
 PixelResult evaluatePixel(const SurfacePixel& pixel, const Glints& glints,
                           std::span<const PointLight> lights, const GlintMethodOptions& options) {
-  const glm::dvec2 stretch = options.stretch.value_or(gridStretch(glints.alpha_g, glints.alpha_l));
-  const std::vector<GridVisit> grids = options.exact
-                                           ? visitExact(pixel.footprint, stretch)
-                                           : visitZk16(pixel.footprint, stretch, options.ka);
+  const GridRules rules = gridRules(glints.alpha_g, glints.alpha_l, glints.density, glints.groove);
+  const glm::dvec2 stretch = rules.stretch;
+  const bool exact = options.method == GlintRule::kExact;
+  const std::vector<GridVisit> grids =
+      exact ? visitExact(pixel.footprint, rules) : visitZk16(pixel.footprint, rules, options.ka);
   const glm::dvec3 o = toLocal(pixel.frame, pixel.view);
 
   PixelResult result;
@@ -89,9 +139,15 @@ PixelResult evaluatePixel(const SurfacePixel& pixel, const Glints& glints,
     result.smooth += smooth;
     if (p <= kLeastProbability) continue;
     const HalfVectorIndex half = halfVectorIndex(glm::normalize(i + o), glints);
-    const LightDraw draw = {p, half, glints, stretch, options.exact};
+    const LightDraw draw = {p, half, glints, stretch, exact};
+    const bool distributed = options.method == GlintRule::kDistributed;
+    if (distributed) {
+      const double microdetails = std::clamp(glints.density * footprintArea(pixel.footprint), 1.0,
+                                             mostExpected(glints.size_variation));
+      result.radiance += smooth * distributedRatio(grids, microdetails, draw, result.rounding);
+    }
     for (const GridVisit& grid : grids) {
-      result.radiance += smooth * gridRatio(grid, draw, result.rounding);
+      if (!distributed) result.radiance += smooth * gridRatio(grid, draw, result.rounding);
       result.tied = result.tied || grid.tied;
       result.cells += static_cast<std::uint32_t>(grid.cells.size());
       result.limited = result.limited || grid.limited;

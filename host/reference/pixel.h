@@ -3,7 +3,6 @@
 #pragma once
 #include <cstdint>
 #include <glm/glm.hpp>
-#include <optional>
 #include <span>
 
 #include "host/core/frame_packing.h"
@@ -33,11 +32,12 @@ struct SurfacePixel {
   glm::dvec3 view{0, 0, 1};  // unit, world space, towards the eye
 };
 
+/// How a pixel's cells are found and drawn: kernels/glint/method_*.clh.
+enum class GlintRule { kZk16, kExact, kDistributed };
+
 struct GlintMethodOptions {
-  bool exact = false;
+  GlintRule method = GlintRule::kZk16;
   int ka = 16;
-  /// Replaces gridStretch where the caller needs the bits of another implementation.
-  std::optional<glm::dvec2> stretch{};
 };
 
 struct PixelResult {

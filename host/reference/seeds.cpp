@@ -22,10 +22,10 @@ std::int32_t coherentIndex(std::int32_t i) {
   return i == 0 ? 0 : i >> std::countr_zero(static_cast<std::uint32_t>(i));
 }
 
-std::uint32_t cellSeed(std::int32_t cell_u, std::int32_t cell_v) {
+std::uint32_t cellSeed(std::int32_t cell_u, std::int32_t cell_v, std::uint32_t salt) {
   const auto cu = static_cast<std::uint32_t>(coherentIndex(cell_u));
   const auto cv = static_cast<std::uint32_t>(coherentIndex(cell_v));
-  std::uint32_t s = cu * 0x9E3779B1u + cv * 0x85EBCA77u;
+  std::uint32_t s = cu * 0x9E3779B1u + cv * 0x85EBCA77u + salt;
   s ^= s >> 16;
   s *= 0x7FEB352Du;
   s ^= s >> 15;
@@ -52,18 +52,18 @@ double gaussOf(std::uint32_t h) {
   return (static_cast<double>(sum) - 510.0) / kByteSumSigma;
 }
 
-CellContent cellContent(std::uint32_t d, double mean, double size_variation) {
-  CellContent content;
-  const double factor =
-      size_variation > 0
-          ? std::max(std::abs(1.0 + size_variation * gaussOf(d * 0x2C1B3C6Du)), kLeastFactor)
-          : 1.0;
-  content.expected = std::min(mean, kMostExpected / (1.0 + 3.5 * size_variation)) * factor;
-  const double whole = std::floor(content.expected);
-  content.count = static_cast<std::int64_t>(whole);
-  if (uniformOf(d * 0x297A2D39u) < content.expected - whole) ++content.count;
-  content.draw = uniformOf(d);
-  return content;
+double sizeFactor(std::uint32_t d, double size_variation) {
+  if (size_variation <= 0) return 1;
+  return std::max(std::abs(1.0 + size_variation * gaussOf(d * 0x2C1B3C6Du)), kLeastFactor);
+}
+
+double mostExpected(double size_variation) {
+  return kMostExpected / (1.0 + 3.5 * size_variation);
+}
+
+std::int64_t wholeNumber(std::uint32_t d, double expected) {
+  const double whole = std::floor(expected);
+  return static_cast<std::int64_t>(whole) + (uniformOf(d * 0x297A2D39u) < expected - whole ? 1 : 0);
 }
 
 }  // namespace glintmark::reference

@@ -8,7 +8,7 @@ namespace glintmark::reference {
 std::int32_t coherentIndex(std::int32_t i);
 
 /// Step 4: seed of a texture cell, from plain (not yet coherent) indices.
-std::uint32_t cellSeed(std::int32_t cell_u, std::int32_t cell_v);
+std::uint32_t cellSeed(std::int32_t cell_u, std::int32_t cell_v, std::uint32_t salt = 0);
 
 /// Half vector in cells of its own grid, 16.16 fixed point.
 struct HalfVectorIndex {
@@ -25,14 +25,11 @@ double uniformOf(std::uint32_t h);
 double gaussOf(std::uint32_t h);
 
 /// What one pair of cells holds.
-struct CellContent {
-  std::int64_t count = 0;  // N
-  double expected = 0;     // N-bar m, which a share is relative to
-  double draw = 0;         // U(d) of the binomial draw
-};
-
-/// Step 7: number of microdetails for the pair seed `d`, expected number `mean` at most
-/// 2^30 / (1 + 3.5 v).
-CellContent cellContent(std::uint32_t d, double mean, double size_variation);
+/// Step 7, for the pair seed `d`: m, the factor on a cell's number of microdetails.
+double sizeFactor(std::uint32_t d, double size_variation);
+/// The most that the expected number may be, before that factor.
+double mostExpected(double size_variation);
+/// `expected` rounded up or down at random.
+std::int64_t wholeNumber(std::uint32_t d, double expected);
 
 }  // namespace glintmark::reference

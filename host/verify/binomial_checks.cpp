@@ -10,6 +10,7 @@
 #include "host/harness/probes.h"
 #include "host/harness/tolerances.h"
 #include "host/reference/binomial.h"
+#include "host/reference/seeds.h"
 #include "host/verify/check_groups.h"
 
 namespace glintmark {
@@ -53,21 +54,23 @@ double referenceDraw(double u, double n, double p, GlintMethod method) {
 // Summed draws are Boost.Math's quantile, others within what the normal expansion leaves.
 Finding quantiles(const CheckContext& context, GlintMethod method) {
   std::mt19937 random(13);
-  std::vector<float> u, n, p;
+  std::vector<std::uint32_t> bits;
+  std::vector<float> n, p;
   for (const BinomialCase& c : binomialGrid())
     for (int i = 0; i < 200; ++i) {
-      u.push_back(static_cast<float>((static_cast<double>(random()) + 0.5) * 0x1p-32));
+      bits.push_back(static_cast<std::uint32_t>(random()));
       n.push_back(static_cast<float>(std::floor(c.n)));
       p.push_back(static_cast<float>(c.p));
     }
-  const auto k = probeBinomial(context.bench, u, n, p, method, context.lanes);
-  const double summed_mean = method == GlintMethod::kExact ? 32 : 5;
+  const auto k = probeBinomial(context.bench, bits, n, p, method, context.lanes);
+  const double summed_mean = method == GlintMethod::kExact ? 24 : 3.75;
   std::size_t summed = 0, different = 0;
   Finding finding(kFlippedDrawShare);
   for (std::size_t i = 0; i < k.size(); ++i) {
-    const double difference = std::abs(k[i] - referenceDraw(u[i], n[i], p[i], method));
+    const double u = reference::uniformOf(bits[i]);
+    const double difference = std::abs(k[i] - referenceDraw(u, n[i], p[i], method));
     const double sigma = std::sqrt(n[i] * p[i] * (1.0 - p[i]));
-    const auto where = [&] { return fmt::format("u {} n {} p {}: {}", u[i], n[i], p[i], k[i]); };
+    const auto where = [&] { return fmt::format("u {} n {} p {}: {}", u, n[i], p[i], k[i]); };
     if (n[i] * std::min<double>(p[i], 1.0 - p[i]) <= summed_mean) {
       ++summed;
       different += difference > floatSpacing(n[i]) / 2;
@@ -83,15 +86,16 @@ Finding quantiles(const CheckContext& context, GlintMethod method) {
 }
 
 Finding extremeDraws(const CheckContext& context, GlintMethod method) {
-  std::vector<float> u, n, p;
-  for (const float a : {0x1p-33f, 1e-9f, 1e-4f, 0.5f, 0.9999999f, 1.0f})
+  std::vector<std::uint32_t> bits;
+  std::vector<float> n, p;
+  for (const std::uint32_t a : {0u, 4u, 429497u, 0x7FFFFFFFu, 0x80000000u, 0xFFFFFE52u, ~0u})
     for (const float b : {0.f, 1.f, 2.f, 17.f, 1e4f, 1e9f, 0x1p30f})
       for (const float c : {0.f, 1e-38f, 1e-12f, 1e-9f, 0.5f, 0.50000006f, 0.99999994f, 1.f}) {
-        u.push_back(a);
+        bits.push_back(a);
         n.push_back(b);
         p.push_back(c);
       }
-  const auto k = probeBinomial(context.bench, u, n, p, method, context.lanes);
+  const auto k = probeBinomial(context.bench, bits, n, p, method, context.lanes);
   double bad = 0;
   for (std::size_t i = 0; i < k.size(); ++i) {
     const bool in_range = k[i] >= 0 && k[i] <= n[i] && k[i] == std::floor(k[i]);
@@ -105,18 +109,19 @@ Finding extremeDraws(const CheckContext& context, GlintMethod method) {
 // Beyond u = 1e-7 of P(K > 0), sums in single precision cannot resolve u any more; but they must
 // not answer with more than the smallest of all uniforms stands for.
 Finding deepTail(const CheckContext& context, GlintMethod method) {
-  constexpr float kLeastUniform = 0x1p-33f;
-  std::vector<float> u, n, p;
+  constexpr double kLeastUniform = 0x1p-33;
+  std::vector<std::uint32_t> bits;
+  std::vector<float> n, p;
   std::mt19937 random(14);
   for (const float count : {1.f, 3.f, 7.f, 12.f, 20.f, 100.f, 1e4f, 1e6f, 1e9f})
     for (const float mean : {1e-6f, 1e-3f, 0.05f, 0.5f, 1.f, 3.f, 4.9f, 10.f, 30.f})
       for (int i = 0; i < 64 && mean < 0.5f * count; ++i) {
-        u.push_back(i == 0 ? kLeastUniform
-                           : static_cast<float>(std::pow(10.0, -6 - 3.9 * random() * 0x1p-32)));
+        const double u = std::pow(10.0, -6 - 3.9 * random() * 0x1p-32);
+        bits.push_back(i == 0 ? 0 : static_cast<std::uint32_t>(u * 0x1p32));
         n.push_back(count);
         p.push_back(mean / count);
       }
-  const auto k = probeBinomial(context.bench, u, n, p, method, context.lanes);
+  const auto k = probeBinomial(context.bench, bits, n, p, method, context.lanes);
   double fireflies = 0;
   for (std::size_t i = 0; i < k.size(); ++i)
     fireflies += k[i] > referenceDraw(kLeastUniform, n[i], p[i], method) + 1;
@@ -127,15 +132,16 @@ Finding deepTail(const CheckContext& context, GlintMethod method) {
 
 Finding sameDraws(const CheckContext& context, GlintMethod method) {
   std::mt19937 random(12);
-  std::vector<float> u, n, p;
+  std::vector<std::uint32_t> bits;
+  std::vector<float> n, p;
   for (const BinomialCase& c : binomialGrid())
     for (int i = 0; i < 64; ++i) {
-      u.push_back(static_cast<float>((static_cast<double>(random()) + 0.5) * 0x1p-32));
+      bits.push_back(static_cast<std::uint32_t>(random()));
       n.push_back(binomialTrials(c, random));
       p.push_back(static_cast<float>(c.p));
     }
-  const auto one = probeBinomial(context.bench, u, n, p, method, 1),
-             wide = probeBinomial(context.bench, u, n, p, method, context.lanes);
+  const auto one = probeBinomial(context.bench, bits, n, p, method, 1),
+             wide = probeBinomial(context.bench, bits, n, p, method, context.lanes);
   double different = 0;
   for (std::size_t i = 0; i < one.size(); ++i)
     different += std::bit_cast<std::uint32_t>(one[i]) != std::bit_cast<std::uint32_t>(wide[i]);

@@ -273,7 +273,8 @@ Finding glints(const CheckContext& context, double half_deg) {
   one.pixels.resize(1);
   const double smooth = shadePixels(context.bench, one, smooth_config).radiance[0].x;
   Finding finding(kEnergyTolerance);
-  for (const GlintMethod method : {GlintMethod::kZk16, GlintMethod::kExact}) {
+  for (const GlintMethod method :
+       {GlintMethod::kZk16, GlintMethod::kExact, GlintMethod::kDistributed}) {
     config.method = method;
     double sum = 0;
     for (const glm::vec3& radiance : shadePixels(context.bench, frame, config).radiance)

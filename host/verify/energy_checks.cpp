@@ -75,6 +75,7 @@ struct GlintKind {
 };
 constexpr GlintKind kKinds[] = {{"zk16", GlintMethod::kZk16, false, false},
                                 {"exact", GlintMethod::kExact, false, false},
+                                {"distributed", GlintMethod::kDistributed, false, false},
                                 {"zk16_groove", GlintMethod::kZk16, true, false},
                                 {"zk16_colour", GlintMethod::kZk16, false, true}};
 

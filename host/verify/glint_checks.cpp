@@ -17,6 +17,7 @@ namespace {
 
 constexpr auto kZk16 = GlintMethod::kZk16;
 constexpr auto kExact = GlintMethod::kExact;
+constexpr auto kDistributed = GlintMethod::kDistributed;
 
 struct DrawCase {
   const char* name;
@@ -40,6 +41,12 @@ constexpr DrawCase kDrawCases[] = {
     {"zk16_ka1", kZk16, {.3f, .3f}, {.03f, .03f}, 1e7f, 0, false, 1, {1e-4, 1e-2, 64}},
     {"zk16_ka64", kZk16, {.3f, .3f}, {.03f, .03f}, 1e7f, 0, false, 64, {1e-4, 1e-2, 100}},
     {"zk16_wide_lobe", kZk16, {.3f, .3f}, {.299f, .299f}, 1e6f, 1, false, 16, kUsual},
+    {"distributed_sparse", kDistributed, {.3f, .3f}, {.03f, .03f}, 1e6f, 0, false, 16, kUsual},
+    {"distributed_dense", kDistributed, {.3f, .3f}, {.03f, .03f}, 1e9f, 0, false, 16, kUsual},
+    {"distributed_varied", kDistributed, {.3f, .3f}, {.1f, .1f}, 1e6f, 2, false, 16, kUsual},
+    {"distributed_stretched", kDistributed, {.4f, .1f}, {.02f, .05f}, 1e6f, 1, false, 16, kUsual},
+    {"distributed_groove", kDistributed, {.1f, .5f}, {.1f, .02f}, 1e6f, 1, true, 16, kUsual},
+    {"distributed_near", kDistributed, {.3f, .3f}, {.2f, .2f}, 3e3f, 1, false, 16, kUsual},
     {"exact_sparse", kExact, {.3f, .3f}, {.03f, .03f}, 1e6f, 0, false, 16, kUsual},
     {"exact_dense", kExact, {.3f, .3f}, {.03f, .03f}, 1e9f, 0, false, 16, kUsual},
     {"exact_varied", kExact, {.3f, .3f}, {.1f, .1f}, 1e6f, 2, false, 16, kUsual},
@@ -79,9 +86,8 @@ Finding drawForDraw(const CheckContext& context, const DrawCase& c) {
   const ShadedPixels smooth = shadePixels(context.bench, frame, smooth_config);
   const std::vector<reference::PointLight> lights = referenceLights(frame);
   reference::GlintMethodOptions options;
-  options.exact = c.method == kExact;
+  options.method = referenceRule(c.method);
   options.ka = c.ka;
-  options.stretch = deviceStretch(context.bench, frame.material);
 
   Finding finding(kFlippedPixelShare);
   double different_counts = 0, flipped = 0, sum = 0, sum_reference = 0;
@@ -91,7 +97,7 @@ Finding drawForDraw(const CheckContext& context, const DrawCase& c) {
                                  referenceGlints(frame.material, c.groove), lights, options);
     const double difference = std::abs(static_cast<double>(shaded.cells[i]) - expected.cells);
     finding.require(
-        difference <= (options.exact ? 2 : 0),
+        difference <= (c.method == kExact ? 2 : 0),
         fmt::format("pixel {} visits {} cells, not {}", i, shaded.cells[i], expected.cells));
     finding.require(shaded.limited[i] == expected.limited,
                     fmt::format("pixel {} is not limited as the reference is", i));
@@ -136,6 +142,9 @@ Finding cellRange(const CheckContext& context) {
 Finding footprintLevels(const CheckContext& context) {
   Finding finding(1);
   const glm::dvec2 stretch(0.25, 1);
+  GlintMaterial glints{};
+  glints.gamma = {0.25f, 1};
+  glints.finest_level = -30;
   std::vector<reference::PixelFootprint> footprints;
   for (const HandMadePixel& pixel : randomPixels(5000, {1e-6, 1, 200})) {
     footprints.push_back(pixel.footprint);
@@ -144,7 +153,7 @@ Finding footprintLevels(const CheckContext& context) {
   }
   for (const int ka : {1, 16, 64}) {
     const FootprintProbe probed =
-        probeFootprints(context.bench, footprints, stretch, kZk16, ka, context.lanes);
+        probeFootprints(context.bench, footprints, glints, kZk16, ka, context.lanes);
     for (std::size_t i = 0; i < footprints.size(); ++i) {
       const reference::PixelFootprint& f = footprints[i];
       finding.add(std::abs(probed.fine_level[i] + probed.coarse_weight[i] -
@@ -167,7 +176,8 @@ struct WidthCase {
 };
 constexpr WidthCase kWidthCases[] = {{"zk16", kZk16, false, false, false},
                                      {"zk16_groove_colour_cone", kZk16, true, true, true},
-                                     {"exact", kExact, false, false, false}};
+                                     {"exact", kExact, false, false, false},
+                                     {"distributed", kDistributed, false, true, false}};
 
 Finding sameGlints(const CheckContext& context, const WidthCase& c) {
   HandMadeFrame frame;
@@ -195,6 +205,24 @@ Finding sameGlints(const CheckContext& context, const WidthCase& c) {
   return finding;
 }
 
+// Microdetails of grooves have no roughness along u: it changes no bit.
+Finding grooveRoughnessAlong(const CheckContext& context) {
+  const DrawCase c = {"", kZk16, {.1f, .5f}, {.01f, .02f}, 1e6f, 1, true, 16, kUsual};
+  DrawCase other = c;
+  other.alpha_l.x = .09f;
+  const ShadedPixels one = drawPixels(context, c, drawFrame(c));
+  const ShadedPixels two = drawPixels(context, c, drawFrame(other));
+  Finding finding(0);
+  double different = 0, lit = 0;
+  for (std::size_t i = 0; i < one.radiance.size(); ++i) {
+    different += one.radiance[i] != two.radiance[i] || one.cells[i] != two.cells[i];
+    lit += one.radiance[i].x > 0;
+  }
+  finding.add(different);
+  finding.require(lit > 0, "no pixel is lit");
+  return finding;
+}
+
 }  // namespace
 
 std::vector<Check> glintChecks() {
@@ -204,6 +232,8 @@ std::vector<Check> glintChecks() {
                       [&c](const CheckContext& context) { return drawForDraw(context, c); }});
   checks.push_back({"cells/footprint", "error in units of its bound", footprintLevels});
   checks.push_back({"cells/zk16_range", "pixels outside 8 to 64 cells", cellRange});
+  checks.push_back(
+      {"cells/groove_roughness_along", "pixels that it changes", grooveRoughnessAlong});
   for (const WidthCase& c : kWidthCases)
     checks.push_back({std::string("cells/same_bits_") + c.name,
                       "pixels that differ from one lane's",

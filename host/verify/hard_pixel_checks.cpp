@@ -5,6 +5,7 @@
 #include <string>
 
 #include "host/harness/tolerances.h"
+#include "host/ocl/switches.h"
 #include "host/verify/check_groups.h"
 #include "host/verify/hard_case.h"
 
@@ -57,15 +58,14 @@ ShadedPixels HardCase::shadeSanely(const HandMadeFrame& frame, const KernelConfi
 void HardCase::expectReference(const HandMadeFrame& frame) {
   const ShadedPixels shaded = shadeSanely(frame);
   reference::GlintMethodOptions options;
-  options.exact = method == GlintMethod::kExact;
-  options.stretch = deviceStretch(context.bench, frame.material);
+  options.method = referenceRule(method);
   const auto lights = referenceLights(frame);
   double flipped = 0, different_counts = 0;
   for (std::size_t i = 0; i < frame.pixels.size(); ++i) {
     const reference::PixelResult want = reference::evaluatePixel(
         referencePixel(frame, frame.pixels[i]), referenceGlints(frame.material), lights, options);
     // In proportion: a pixel of thousands of cells may touch one more or less.
-    const double tolerated = options.exact ? 1e-3 * want.cells : 0;
+    const double tolerated = method == GlintMethod::kExact ? 1e-3 * want.cells : 0;
     different_counts += std::abs(static_cast<double>(shaded.cells[i]) - want.cells) > tolerated;
     if (want.tied) continue;
     const double error = std::abs(shaded.radiance[i].x - want.radiance.x);
@@ -75,8 +75,9 @@ void HardCase::expectReference(const HandMadeFrame& frame) {
   }
   const auto count = static_cast<double>(frame.pixels.size());
   finding.add(flipped / count);
-  finding.require(different_counts <= (options.exact ? kThresholdCountShare * count : 0),
-                  fmt::format("{} pixels visit other cells", different_counts));
+  finding.require(
+      different_counts <= (method == GlintMethod::kExact ? kThresholdCountShare * count : 0),
+      fmt::format("{} pixels visit other cells", different_counts));
 }
 
 void HardCase::expectRadiance(const ShadedPixels& shaded, double wanted) {
@@ -90,7 +91,7 @@ std::vector<Check> hardPixelChecks() {
   std::vector<Check> checks;
   const auto add = [&](GlintMethod method, const NamedHardCase& c) {
     checks.push_back(
-        {std::string(method == GlintMethod::kZk16 ? "hard_zk16/" : "hard_exact/") + c.name,
+        {fmt::format("hard_{}/{}", choiceName(method), c.name),
          c.flipped_share > 0 ? "share of pixels with other draws" : "finite, not negative",
          [method, &c](const CheckContext& context) {
            HardCase hard{context, method, Finding(c.flipped_share)};
@@ -98,7 +99,8 @@ std::vector<Check> hardPixelChecks() {
            return hard.finding;
          }});
   };
-  for (const GlintMethod method : {GlintMethod::kZk16, GlintMethod::kExact}) {
+  for (const GlintMethod method :
+       {GlintMethod::kZk16, GlintMethod::kExact, GlintMethod::kDistributed}) {
     for (const NamedHardCase& c : hardFootprints()) add(method, c);
     for (const NamedHardCase& c : hardSurfaces()) add(method, c);
   }

@@ -46,23 +46,17 @@ kernel void probeRandom(global const uint* bits, global float* out, uint count) 
 
 // in: planes of `count` words: u whole, u fraction, v whole, v fraction, du/dx, dv/dx, du/dy,
 // dv/dy. out: finer level, weight of the coarser grid, extents of the stretched box.
-kernel void probeFootprint(global const uint* in, global float* out, uint count, float gamma_u,
-                           float gamma_v) {
+kernel void probeFootprint(global const uint* in, global float* out, uint count,
+                           constant const GlintMaterial* glints) {
   if (FIRST >= count) return;
 #define WORD(plane) loadUint(in, (plane) * (size_t)count + FIRST)
   const FixedUv u = {bitsToInt(WORD(0)), WORD(1)}, v = {bitsToInt(WORD(2)), WORD(3)};
   const GlintUv uv = {
       u, v, bitsToFloat(WORD(4)), bitsToFloat(WORD(5)), bitsToFloat(WORD(6)), bitsToFloat(WORD(7))};
 #undef WORD
-  const Footprint f = makeFootprint(uv, (float2)(gamma_u, gamma_v));
+  const Footprint f = makeFootprint(uv, glints);
   storeFloat(toFloat(f.fine_level), out, FIRST);
   storeFloat(f.coarse_weight, out, count + FIRST);
   storeFloat(f.extent_u, out, 2 * (size_t)count + FIRST);
   storeFloat(f.extent_v, out, 3 * (size_t)count + FIRST);
-}
-
-// materials: alpha_g.xy and alpha_l.xy; out: stretch.xy.
-kernel void probeStretch(global const float4* alphas, global float2* out, uint count) {
-  const size_t i = get_global_id(0);
-  if (i < count) out[i] = gridStretch(alphas[i].xy, alphas[i].zw);
 }

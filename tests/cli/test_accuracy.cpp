@@ -1,6 +1,7 @@
 // glintmark accuracy on tiny pictures.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -107,21 +108,72 @@ TEST(Accuracy, FramesAgainstASupersampledTruth) {
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
 }
 
-TEST(Accuracy, GlintsAgainstFramesOfMethodExact) {
+TEST(Accuracy, GlintsAgainstPlacedMicrodetails) {
+  const TempFolder folder;
+  const ProcessResult result =
+      runGlintmark(accuracyArguments(folder, "glints",
+                                     {"--scene", "screen_plane/grazing", "--width", "8", "--knob",
+                                      "method", "--knob", "truth", "--knob", "grids"}));
+  ASSERT_EQ(result.exit_code, 0) << result.err << result.out;
+  auto errors = figuresOf(folder, "error"), noise = figuresOf(folder, "truth_stderr");
+  auto variances = figuresOf(folder, "variance_ratio"), dark = figuresOf(folder, "dark_share");
+  auto true_dark = figuresOf(folder, "truth_dark_share");
+  // Each method, and for it and three forms of the truth eighteen kinds of pixels and the near one.
+  const auto methods = static_cast<std::size_t>(std::ranges::count_if(errors, [](const auto& one) {
+    return one.first.starts_with("glints/method=") && one.first.find("lambda") == std::string::npos;
+  }));
+  EXPECT_GE(methods, 2u);
+  EXPECT_EQ(errors.size(), methods + 2 + (methods + 3) * 19);
+  EXPECT_EQ(errors["glints/grids=2"], errors["glints/method=zk16"]);
+  // Draws of the number and placed microdetails agree as two samples do, in all that is compared.
+  for (const char* aspect : {"1", "4", "16"}) {
+    for (const char* lambda : {"0.1", "0.5", "2", "10", "100", "1000"}) {
+      const std::string name =
+          std::string("glints/truth=binomial/aspect=") + aspect + "/lambda=" + lambda;
+      EXPECT_LT(errors[name], 2.5 * noise[name]) << name;
+      // 512 pixels of each.
+      EXPECT_NEAR(dark[name], true_dark[name], 0.1) << name;
+      EXPECT_NEAR(variances[name], 1, 0.6) << name;
+    }
+  }
+  // What averages whole cells has too little variance, and lights pixels that are dark.
+  for (const char* method : {"zk16", "exact"}) {
+    const std::string name = std::string("glints/method=") + method + "/aspect=1/lambda=";
+    EXPECT_GT(errors[name + "0.5"], 0.4) << method;
+    EXPECT_LT(errors[name + "100"], errors[name + "2"]) << method;
+    EXPECT_LT(variances[name + "10"], 0.6) << method;
+    EXPECT_LT(dark[name + "0.5"], 0.4) << method;
+    EXPECT_GT(true_dark[name + "0.5"], 0.5) << method;
+  }
+  // Lobes have half of the variance.
+  EXPECT_NEAR(variances["glints/truth=lobes/aspect=1/lambda=10"], 0.5, 0.15);
+  for (const char* metric :
+       {"lobes_error", "tent_error", "largest_of_bound", "truth_largest_of_bound", "correlation",
+        "truth_correlation", "motion_ratio", "error_swing", "variance_swing", "dark_swing",
+        "largest_swing", "correlation_swing", "motion_swing", "bias"})
+    EXPECT_TRUE(figuresOf(folder, metric).contains("glints/method=exact/aspect=4/lambda=2"))
+        << metric;
+  // Figures by replicate carry their spread.
+  for (const Record& record : readResults(folder / "r/results.json").records)
+    if (record.case_ == "glints/method=zk16/aspect=1/lambda=2" &&
+        record.metric == "variance_ratio") {
+      EXPECT_EQ(record.value.n, 8u);
+      EXPECT_GT(record.value.stddev, 0);
+    }
+  std::istringstream lines(readFile(folder / "r/table.txt"));
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
+}
+
+TEST(Accuracy, KnobsOfGlintsHaveErrorsOfTheirOwn) {
   const TempFolder folder;
   const ProcessResult result = runGlintmark(accuracyArguments(
-      folder, "glints",
-      {"--scene", "screen_plane/grazing", "--width", "4", "--knob", "ka", "--knob", "grids"}));
+      folder, "glints", {"--scene", "screen_plane/grazing", "--width", "8", "--knob", "ka"}));
   ASSERT_EQ(result.exit_code, 0) << result.err << result.out;
-  auto errors = figuresOf(folder, "error");
-  EXPECT_EQ(errors.size(), 9u);
-  EXPECT_EQ(figuresOf(folder, "frame_to_frame_error").size(), 9u);
-  EXPECT_EQ(figuresOf(folder, "distribution_distance"), errors);
-  EXPECT_EQ(errors["glints/grids=2"], errors["glints/ka=16"]);
-  // A footprint cut short is brighter here and darker there: other values, other changes.
-  EXPECT_GT(errors["glints/ka=1"], errors["glints/ka=16"]);
-  auto motion = figuresOf(folder, "frame_to_frame_error");
-  EXPECT_GT(motion["glints/ka=1"], motion["glints/ka=16"]);
+  auto errors = figuresOf(folder, "error"), motion = figuresOf(folder, "motion_ratio");
+  EXPECT_EQ(errors.size(), 7u);
+  // A footprint cut short shows the same cells for longer.
+  EXPECT_GT(errors["glints/ka=1"], 1.3 * errors["glints/ka=16"]);
+  EXPECT_LT(motion["glints/ka=1"], motion["glints/ka=16"]);
 }
 
 TEST(Accuracy, AreaLightsAndMonteCarlo) {

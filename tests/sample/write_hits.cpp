@@ -10,6 +10,7 @@
 
 #include "host/core/error.h"
 #include "host/core/float4.h"
+#include "host/core/glint_grids.h"
 #include "host/frame/effect/lights.h"
 #include "host/frame/frame_renderer.h"
 #include "host/harness/small_scenes.h"
@@ -72,7 +73,8 @@ void write(const std::string& method, const std::string& path) {
   header.material_bytes = sizeof(MaterialParams);
   const float irradiance[] = {light.power.x, light.power.y, light.power.z, 0};
   std::copy(std::begin(irradiance), std::end(irradiance), header.irradiance);
-  std::memcpy(header.material, &scene.materials[0].params, sizeof header.material);
+  const MaterialParams material = withGlintGrids(scene.materials[0].params, false);
+  std::memcpy(header.material, &material, sizeof header.material);
 
   std::ofstream file(path, std::ios::binary);
   append(file, &header, 1);

@@ -1,5 +1,7 @@
 #include "host/experiment/accuracy/accuracy_effect.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -41,15 +43,22 @@ AccuracyFigures meanFigures(std::span<const AccuracyFigures> figures) {
   AccuracyFigures mean;
   mean.error = geometricMean(figures, [](const auto& one) { return one.error; });
   mean.truth_stderr = geometricMean(figures, [](const auto& one) { return one.truth_stderr; });
-  mean.rel_mse = geometricMean(figures, [](const auto& one) { return one.rel_mse; });
-  mean.colour_error = geometricMean(figures, [](const auto& one) { return one.colour_error; });
-  mean.distribution_distance = geometricMeanOf(figures, &AccuracyFigures::distribution_distance);
-  mean.frame_to_frame_error = geometricMeanOf(figures, &AccuracyFigures::frame_to_frame_error);
+  for (const auto member : {&AccuracyFigures::rel_mse, &AccuracyFigures::colour_error,
+                            &AccuracyFigures::variance_ratio, &AccuracyFigures::motion_ratio})
+    mean.*member = geometricMeanOf(figures, member);
   for (const AccuracyFigures& one : figures) {
     mean.bias += one.bias / static_cast<double>(figures.size());
     if (mean.failure.empty()) mean.failure = one.failure;
   }
   return mean;
+}
+
+std::vector<Record> AccuracyEffect::measureCloser(const std::string& case_name) {
+  throw Error(fmt::format("no case {}", case_name));
+}
+
+std::string AccuracyEffect::closerText(std::span<const Record>) const {
+  return "";
 }
 
 std::vector<Record> accuracyRecords(const BenchRun& run, const std::string& case_name,
@@ -72,14 +81,15 @@ std::vector<Record> accuracyRecords(const BenchRun& run, const std::string& case
     add("fit_ratio", times.fit_ratio,
         "what is fitted before the first frame, over the default's, in turn");
   add("bias", {figures.bias}, "of the mean radiance");
-  add("rel_mse", {figures.rel_mse}, "");
-  add("colour_error", {figures.colour_error}, "of display colours");
-  if (figures.distribution_distance)
-    add("distribution_distance", {*figures.distribution_distance},
-        "Wasserstein distance of pixel luminances over their mean");
-  if (figures.frame_to_frame_error)
-    add("frame_to_frame_error", {*figures.frame_to_frame_error},
-        "error of the change from frame to frame at a quarter of a pixel, in display colours");
+  const auto add_if = [&](const char* metric, const std::optional<double>& value,
+                          const std::string& note) {
+    if (value) add(metric, {*value}, note);
+  };
+  add_if("rel_mse", figures.rel_mse, "");
+  add_if("colour_error", figures.colour_error, "of display colours");
+  add_if("variance_ratio", figures.variance_ratio, "of pixels over the truth's, geometric mean");
+  add_if("motion_ratio", figures.motion_ratio,
+         "mean change per quarter of a pixel over the truth's, geometric mean");
   return records;
 }
 

@@ -14,8 +14,9 @@ namespace glintmark {
 /// How wrong one setting is in one scene. `error` is the effect's principal metric, truth_stderr
 /// what the truth itself may be off, in the same metric; results/README.md has the others.
 struct AccuracyFigures {
-  double error = 0, truth_stderr = 0, bias = 0, rel_mse = 0, colour_error = 0;
-  std::optional<double> distribution_distance, frame_to_frame_error;
+  double error = 0, truth_stderr = 0, bias = 0;
+  std::optional<double> rel_mse, colour_error;         // of pictures
+  std::optional<double> variance_ratio, motion_ratio;  // of glints
   std::string failure;  // why the figures are not valid, empty if they are
 };
 
@@ -46,6 +47,11 @@ class AccuracyEffect {
   /// "glints/ka=16", ...
   virtual std::vector<std::string> cases() const = 0;
   virtual std::vector<Record> measure(const std::string& case_name) = 0;
+  /// Cases that say more of settings or of the truth, without times; measured after the others.
+  virtual std::vector<std::string> closerCases() const { return {}; }
+  virtual std::vector<Record> measureCloser(const std::string& case_name);
+  /// Below the table; empty if there is nothing to add.
+  virtual std::string closerText(std::span<const Record> records) const;
   /// What was asked for and left out, and why; empty if nothing.
   virtual std::string leftOut() const { return ""; }
 };

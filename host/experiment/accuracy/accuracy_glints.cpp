@@ -1,21 +1,24 @@
-// Knobs of procedural glints, held against their method `exact`. [ZK16]
+// Knobs of procedural glints, held against placed microdetails. [ZK16]
 //
 // A pixel's glints are drawn by chance, so no picture is the truth: it is the distribution of pixel
-// values. Frames whose textures are moved far away are drawn anew, and several of them by method
-// `exact` are the truth.
+// values, and how they change. Errors are those of lattices of pixels (glint_axis.h), times and
+// checks those of the scenes' frames.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "host/core/error.h"
+#include "host/core/progress.h"
 #include "host/experiment/accuracy/accuracy_sweep.h"
 #include "host/experiment/accuracy/accuracy_table.h"
+#include "host/experiment/accuracy/glint_judge.h"
+#include "host/experiment/accuracy/glint_stage_table.h"
 #include "host/experiment/accuracy/knob_settings.h"
 #include "host/experiment/zk16/zk16_case.h"
 #include "host/experiment/zk16/zk16_table.h"
 #include "host/ocl/switches.h"
-#include "host/report/distribution.h"
 #include "host/report/metrics.h"
 #include "host/report/picture/tonemap.h"
 #include "host/report/record/case_name.h"
@@ -23,145 +26,163 @@
 namespace glintmark {
 namespace {
 
-constexpr int kTruthFrames = 4;
-constexpr int kMotionFrames = 3;
-constexpr double kMotionStep_px = 0.25;
-// How far uvs move from one truth frame to the next: whole numbers off the cells' grids.
-const glm::dvec2 kUvStep = {37.129, 53.817};
+constexpr const char* kMethodKnob = "method";
+constexpr const char* kTruthKnob = "truth";
 
-ShadingOptions exactOptions(const AccuracyStage& stage) {
-  ShadingOptions options = stage.options();
-  options.method = GlintMethod::kExact;
-  return options;
+// Pixels a side of the lattices: 64 for frames of 1080 rows, fewer for smaller ones.
+int latticeSide(const BenchRun& run) {
+  return std::clamp(run.size().height_px / 16, 8, 64);
 }
 
-// Luminances of the covered pixels, ascending.
-std::vector<float> sortedLuminances(const Image& image) {
+double meanLuminance(const Image& image) {
   const Image row = coveredPixels(image);
-  std::vector<float> values;
+  double sum = 0;
   for (std::size_t i = 0; i < row.pixels.size(); i += 3)
-    values.push_back(luminance(row.pixels[i], row.pixels[i + 1], row.pixels[i + 2]));
-  std::ranges::sort(values);
-  return values;
+    sum += luminance(row.pixels[i], row.pixels[i + 1], row.pixels[i + 2]);
+  return row.pixels.empty() ? 0 : 3 * sum / static_cast<double>(row.pixels.size());
 }
 
-// The view moved sideways by `shift_px` pixels at its target's distance.
-View shiftedView(const View& view, double shift_px, int height_px) {
-  const glm::dvec3 axis = view.target - view.eye;
-  const double distance = glm::length(axis);
-  const glm::dvec3 right = glm::normalize(glm::cross(axis, view.up));
-  const double pixel = 2 * distance * std::tan(glm::radians(view.fov_y_deg) / 2) / height_px;
-  View moved = view;
-  moved.eye += shift_px * pixel * right;
-  moved.target += shift_px * pixel * right;
-  moved.orbit.reset();
-  return moved;
+// A program that shades glints by a setting.
+KernelConfig configOf(const ShadingOptions& options) {
+  KernelConfig config;
+  config.width = options.lanes;
+  config.glint = true;
+  config.size_variation = false;
+  setKnobs(options, &KernelConfig::glint, config);
+  setKnobs(options, kEveryProgram, config);
+  return config;
 }
 
 class GlintSweep : public AccuracySweep {
  public:
-  using AccuracySweep::AccuracySweep;
+  GlintSweep(BenchRun& run, const std::vector<std::string>& scenes,
+             std::vector<AccuracySetting> settings, const AccuracyNotes& notes);
+
+  std::vector<std::string> closerCases() const override;
+  std::vector<Record> measureCloser(const std::string& case_name) override;
+  std::string closerText(std::span<const Record> records) const override;
 
  protected:
   AccuracyFigures figures(std::size_t index, const AccuracyStage& stage,
                           const AccuracySetting& setting) override;
 
  private:
-  struct Truth {
-    Image frame;                          // method exact, of the stage's own texture
-    std::vector<float> values;            // of all truth frames, ascending
-    double mean = 0, standard_error = 0;  // distance of one more frame from the others
-    double smooth_mean = 0;
-    std::vector<Image> motion;
-    bool sane = false;
-  };
-  const Truth& truth(std::size_t index, const AccuracyStage& stage);
-  std::vector<Image> motionFrames(const AccuracyStage& stage, const ShadingOptions& options) const;
+  std::string failureOf(std::size_t index, const AccuracyStage& stage,
+                        const AccuracySetting& setting, const ShadingOptions& options);
+  ShadingOptions optionsOf(const AccuracySetting& setting) const;
+  // Of all stages by one setting, measured once.
+  const std::vector<GlintFigures>& judged(const AccuracySetting& setting);
 
-  std::map<std::size_t, Truth> truths_;
+  BenchRun& run_;
+  std::vector<AccuracySetting> settings_;
+  Progress progress_;
+  GlintJudge judge_;
+  std::map<std::size_t, double> smooth_means_;  // by scene
+  std::map<std::string, std::vector<GlintFigures>> judged_;
 };
 
-std::vector<Image> GlintSweep::motionFrames(const AccuracyStage& stage,
-                                            const ShadingOptions& options) const {
-  std::vector<Image> frames;
-  for (int i = 1; i <= kMotionFrames; ++i) {
-    const View view = shiftedView(stage.view(), i * kMotionStep_px, options.height_px);
-    frames.push_back(toneMap(stage.renderer(options, &view)->readRadiance(),
-                             {.exposure = stage.scene().post.exposure}));
-  }
-  return frames;
+GlintSweep::GlintSweep(BenchRun& run, const std::vector<std::string>& scenes,
+                       std::vector<AccuracySetting> settings, const AccuracyNotes& notes)
+    : AccuracySweep(run, "glints", scenes, settings, notes),
+      run_(run),
+      settings_(std::move(settings)),
+      progress_(run.session().common.quiet),
+      judge_(run.device(), run.cache(), run.info().width, latticeSide(run),
+             [this](const std::string& what) {
+               stopIfInterrupted();
+               if (!what.empty()) progress_.show(0, 0, "glints: " + what);
+             }) {}
+
+ShadingOptions GlintSweep::optionsOf(const AccuracySetting& setting) const {
+  ShadingOptions options = run_.shading();
+  if (setting.apply) setting.apply(options);
+  return options;
 }
 
-double meanOf(const std::vector<float>& values) {
-  double sum = 0;
-  for (const float value : values) sum += value;
-  return values.empty() ? 0 : sum / static_cast<double>(values.size());
+const std::vector<GlintFigures>& GlintSweep::judged(const AccuracySetting& setting) {
+  const auto found = judged_.find(setting.name);
+  if (found != judged_.end()) return found->second;
+  const KernelConfig config = configOf(optionsOf(setting));
+  std::vector<GlintFigures> stages;
+  for (std::size_t i = 0; i < glintStages().size(); ++i) {
+    progress_.show(static_cast<int>(i), static_cast<int>(glintStages().size()),
+                   "glints: pixels by " + setting.name);
+    stages.push_back(judge_.method(config, i, knobOf(setting.name) == kMethodKnob));
+  }
+  progress_.clear();
+  return judged_.emplace(setting.name, std::move(stages)).first->second;
 }
 
-const GlintSweep::Truth& GlintSweep::truth(std::size_t index, const AccuracyStage& stage) {
-  const auto found = truths_.find(index);
-  if (found != truths_.end()) return found->second;
-  const ShadingOptions exact = exactOptions(stage);
-  Truth made;
-  made.frame = stage.renderer(exact)->readRadiance();
-  made.sane = isSane(made.frame);
-  Scene moved = stage.scene();
-  std::vector<std::vector<float>> frames;
-  for (int i = 0; i < kTruthFrames; ++i) {
-    for (glm::dvec2& uv : moved.mesh.uvs) uv += kUvStep;
-    const Image image = stage.renderer(exact, nullptr, &moved)->readRadiance();
-    made.sane = made.sane && isSane(image);
-    frames.push_back(sortedLuminances(image));
-  }
-  made.sane = made.sane && !frames.front().empty();
-  if (made.sane) {
-    for (const std::vector<float>& frame : frames)
-      made.values.insert(made.values.end(), frame.begin(), frame.end());
-    std::ranges::sort(made.values);
-    made.mean = meanOf(made.values);
-    made.standard_error =
-        wassersteinDistance(sortedLuminances(made.frame), made.values) / made.mean;
+// Why the frame of a scene is not to be trusted; empty if it is.
+std::string GlintSweep::failureOf(std::size_t index, const AccuracyStage& stage,
+                                  const AccuracySetting& setting, const ShadingOptions& options) {
+  const Image frame = stage.renderer(options)->readRadiance();
+  if (!isSane(frame) || coveredPixels(frame).pixels.empty())
+    return stage.name() + ": radiance is negative, not finite or missing";
+  if (!smooth_means_.contains(index)) {
     ShadingOptions smooth = stage.options();
     smooth.glints = false;
-    made.smooth_mean = meanOf(sortedLuminances(stage.renderer(smooth)->readRadiance()));
-    made.motion = motionFrames(stage, exact);
+    smooth_means_[index] = meanLuminance(stage.renderer(smooth)->readRadiance());
   }
-  return truths_.emplace(index, std::move(made)).first->second;
+  // Crude settings may be far off, that is what is measured; the default may not.
+  const double off = meanLuminance(frame) / smooth_means_[index] - 1;
+  if (setting.role != kAccuracyDefault || std::abs(off) <= kZk16MeanBound) return "";
+  return fmt::format("{}: mean radiance is {:+.1f}% off the smooth lobes'", stage.name(),
+                     100 * off);
 }
 
 AccuracyFigures GlintSweep::figures(std::size_t index, const AccuracyStage& stage,
                                     const AccuracySetting& setting) {
-  const Truth& right = truth(index, stage);
-  ShadingOptions options = stage.options();
-  if (setting.apply) setting.apply(options);
-  const Image frame = stage.renderer(options)->readRadiance();
   AccuracyFigures figures;
-  figures.truth_stderr = right.standard_error;
-  if (!right.sane || !isSane(frame)) {
-    figures.failure = stage.name() + ": radiance is negative, not finite or missing";
-    return figures;
+  figures.failure = failureOf(index, stage, setting, optionsOf(setting));
+  std::vector<double> errors, noises, variances, motions;
+  const std::vector<GlintStage> stages = glintStages();
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    const GlintFigures& one = judged(setting)[i];
+    if (!one.sane) {
+      figures.failure = "a ratio of glints is negative or not finite";
+      return figures;
+    }
+    if (stages[i].isNear()) continue;
+    errors.push_back(one.error);
+    noises.push_back(one.noise);
+    variances.push_back(one.variance_ratio.mean());
+    motions.push_back(one.motion_ratio.mean());
+    figures.bias += one.mean.mean() - 1;
   }
-  const std::vector<float> values = sortedLuminances(frame);
-  const double mean = meanOf(values);
-  // Crude settings may be far off, that is what is measured; the truth and the default may not.
-  const double checked = setting.role == kAccuracyDefault ? mean : right.mean;
-  if (!(std::abs(checked / right.smooth_mean - 1) <= kZk16MeanBound))
-    figures.failure = fmt::format("{}: mean radiance is {:+.1f}% off the smooth lobes'",
-                                  stage.name(), 100 * (checked / right.smooth_mean - 1));
-  const double exposure = stage.scene().post.exposure;
-  const Image row = coveredPixels(frame), truth_row = coveredPixels(right.frame);
-  figures.bias = mean / right.mean - 1;
-  figures.rel_mse = relMse(row, truth_row);
-  figures.colour_error =
-      colourError(toneMap(row, {.exposure = exposure}), toneMap(truth_row, {.exposure = exposure}));
-  figures.distribution_distance = wassersteinDistance(values, right.values) / right.mean;
-  figures.error = *figures.distribution_distance;
-  const std::vector<Image> motion = motionFrames(stage, options);
-  double change = 0;
-  for (std::size_t i = 1; i < motion.size(); ++i)
-    change += changeError(motion[i - 1], motion[i], right.motion[i - 1], right.motion[i]);
-  figures.frame_to_frame_error = change / static_cast<double>(motion.size() - 1);
+  figures.bias /= static_cast<double>(errors.size());
+  figures.error = geometricMeanOf(errors);
+  figures.truth_stderr = geometricMeanOf(noises);
+  figures.variance_ratio = geometricMeanOf(variances);
+  figures.motion_ratio = geometricMeanOf(motions);
   return figures;
+}
+
+std::vector<std::string> GlintSweep::closerCases() const {
+  std::vector<std::string> cases;
+  const auto add = [&](const std::string& setting) {
+    for (const GlintStage& stage : glintStages())
+      cases.push_back(glintStageCase(accuracyCase("glints", setting), stage));
+  };
+  for (const AccuracySetting& setting : settings_)
+    if (knobOf(setting.name) == kMethodKnob) add(setting.name);
+  for (const char* form : kTruthForms) add(fmt::format("{}={}", kTruthKnob, form));
+  return cases;
+}
+
+std::vector<Record> GlintSweep::measureCloser(const std::string& case_name) {
+  const std::size_t stage = glintStageOf(case_name);
+  const CaseName name = CaseName::parse(case_name);
+  if (const auto form = name.value(kTruthKnob))
+    return glintStageRecords(run_, case_name, kAccuracyRival, judge_.truthForm(*form, stage));
+  const std::string setting = fmt::format("{}={}", kMethodKnob, name.value(kMethodKnob).value());
+  const auto found = std::ranges::find(settings_, setting, &AccuracySetting::name);
+  if (found == settings_.end()) throw Error(fmt::format("no case {}", case_name));
+  return glintStageRecords(run_, case_name, found->role, judged(*found)[stage]);
+}
+
+std::string GlintSweep::closerText(std::span<const Record> records) const {
+  return glintStageText(records);
 }
 
 std::vector<AccuracySetting> glintSettings(int device_lanes) {
@@ -205,19 +226,25 @@ std::vector<std::string> glintScenes() {
 }  // namespace
 
 AccuracyKind glintsAccuracy() {
-  return {"glints",
-          knobsOf(glintSettings(1)),
-          glintScenes(),
-          {"screen_plane/grazing", "snow/grazing"},
-          [](BenchRun& run, const std::vector<std::string>& scenes) {
-            const AccuracyNotes notes = {
-                fmt::format("error: Wasserstein distance between pixel luminances and {} frames of "
-                            "method exact, over their mean, at {}, geometric mean over {}",
-                            kTruthFrames, run.options().size, fmt::join(scenes, ", ")),
-                "kernel events, in turn with the default"};
-            return std::unique_ptr<AccuracyEffect>(std::make_unique<GlintSweep>(
-                run, "glints", scenes, glintSettings(run.info().width), notes));
-          }};
+  std::vector<std::string> knobs = knobsOf(glintSettings(1));
+  knobs.emplace_back(kTruthKnob);
+  return {
+      "glints",
+      knobs,
+      knownScenes(),
+      {"screen_plane/grazing", "snow/grazing"},
+      [](BenchRun& run, const std::vector<std::string>& scenes) {
+        const int side = latticeSide(run);
+        const AccuracyNotes notes = {
+            fmt::format("error: Wasserstein distance between pixels and those of placed "
+                        "microdetails, over their mean; {} lattices of {}x{} pixels at each of "
+                        "{} steps of a zoom by two, geometric mean over {} kinds of pixels",
+                        kGlintReplicates, side, side, kGlintZoomSteps, glintStages().size() - 1),
+            fmt::format("kernel events at {}, in turn with the default, geometric mean over {}",
+                        run.options().size, fmt::join(scenes, ", "))};
+        return std::unique_ptr<AccuracyEffect>(
+            std::make_unique<GlintSweep>(run, scenes, glintSettings(run.info().width), notes));
+      }};
 }
 
 }  // namespace glintmark

@@ -28,6 +28,7 @@ std::string accuracyEffectHtml(std::span<const Record> records, const std::strin
   for (const std::string& case_name : caseNames(records)) {
     if (CaseName::parse(case_name).word(0) != effect) continue;
     const CaseRecords one(records, case_name);
+    if (one.find("time_ratio") == nullptr) continue;  // says more of a setting, is none
     const std::string setting = escapeHtml(CaseName::parse(case_name).rest().text());
     const Record *error = one.find("error"), *pareto = one.find("pareto");
     const bool is_default = error != nullptr && accuracyRole(*error) == kAccuracyDefault;

@@ -72,10 +72,9 @@ void requireKnownKnobs(const std::vector<AccuracyKind>& kinds,
       throw Error(fmt::format("unknown knob '{}'; knobs are {}", name, fmt::join(known, ", ")));
 }
 
-// The cases whose knob was asked for; all if none was.
-std::vector<std::string> chosenCases(const AccuracyEffect& effect,
+// Those whose knob was asked for; all if none was.
+std::vector<std::string> chosenCases(std::vector<std::string> cases,
                                      const std::vector<std::string>& knobs) {
-  std::vector<std::string> cases = effect.cases();
   if (!knobs.empty())
     std::erase_if(cases, [&](const std::string& name) {
       return std::ranges::find(knobs, knobOf(name)) == knobs.end();
@@ -89,8 +88,8 @@ std::string headText(const BenchRun& run) {
       "*: the default; s.e.: the truth's own standard error; optimal: no other setting is both "
       "faster\n"
       "and closer, where times and errors within {:.0f} % and errors below s.e. count as equal; "
-      "motion:\n"
-      "error of changes from frame to frame; fit ratio: time before the first frame.\n\n",
+      "variance\n"
+      "and motion: over the truth's; fit ratio: time before the first frame.\n\n",
       run.options().size, run.info().width, run.info().peak_gflops, run.info().device,
       100 * kAccuracyStep);
 }
@@ -120,17 +119,22 @@ int runAccuracy(const Session& session, const AccuracySelection& selection, Benc
        options.scenes.empty() ? "default" : fmt::format("{}", fmt::join(options.scenes, " "))}};
   const InterruptGuard guard;
   BenchRun run(session, options);
-  std::string left_out;
+  std::string left_out, closer;
   for (const AccuracyKind& kind : kinds) {
     const auto effect = kind.make(run, chosenScenes(kind, options.scenes));
-    run.measureCases(accuracySpec().name, chosenCases(*effect, selection.knobs),
+    run.measureCases(accuracySpec().name, chosenCases(effect->cases(), selection.knobs),
                      {"error", "truth_stderr", "time_ratio"},
                      [&](const std::string& name) { return effect->measure(name); });
+    run.measureCases(accuracySpec().name, chosenCases(effect->closerCases(), selection.knobs),
+                     {"error", "truth_stderr"},
+                     [&](const std::string& name) { return effect->measureCloser(name); });
+    closer += effect->closerText(run.recordsOf(accuracySpec().name));
     if (const std::string left = effect->leftOut(); !left.empty()) left_out += "\n" + left + "\n";
   }
   run.addDerived(accuracyPareto(run.recordsOf(accuracySpec().name)));
   const std::vector<Record> records = run.recordsOf(accuracySpec().name);
-  return run.finish(headText(run) + accuracyTableText(records) + left_out + invalidText(records));
+  return run.finish(headText(run) + accuracyTableText(records) + closer + left_out +
+                    invalidText(records));
 }
 
 // `bench` does not measure it.

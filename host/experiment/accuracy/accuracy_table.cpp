@@ -150,7 +150,8 @@ std::vector<Column> columnsOf(std::span<const Record> records, const Effect& eff
                                  {"bias", "bias"},
                                  {"relMSE", "rel_mse"},
                                  {"colour", "colour_error"},
-                                 {"motion", "frame_to_frame_error"}};
+                                 {"variance", "variance_ratio"},
+                                 {"motion", "motion_ratio"}};
   std::vector<Column> columns;
   for (const Column& column : kColumns) {
     bool any = column.metric == kOptimal, another = column.metric == "error" || any;
@@ -220,11 +221,42 @@ const TableSpec& accuracySpec() {
            {"rel_mse", "1", "relMSE"},
            {"colour_error", "1", "colour error"},
            {"distribution_distance", "1", "distance of distributions",
-            "glints: Wasserstein distance between the distributions of pixel luminances, over the "
-            "mean"},
+            "glints of older runs: `error` against frames of method `exact`"},
            {"frame_to_frame_error", "1", "frame-to-frame error",
-            "glints: colour error of the change from frame to frame, three frames a quarter of a "
-            "pixel apart, against the change by method `exact`"}},
+            "glints of older runs: colour error of the change from frame to frame, three frames a "
+            "quarter of a pixel apart, against the change by method `exact`"},
+           {"variance_ratio", "1", "variance of glints",
+            "glints: variance of pixels over the truth's"},
+           {"motion_ratio", "1", "change of glints",
+            "glints: mean change per quarter of a pixel of motion over the truth's"},
+           {"lobes_error", "1", "error to lobes",
+            "`error` against microdetails that mirror the share that their lobe says, instead of "
+            "all "
+            "or nothing with that probability, and (`tent_error`) against pixels that are tents "
+            "over "
+            "twice their parallelogram. This and what follows: cases "
+            "`glints/…/aspect=…/lambda=…` only"},
+           {"tent_error", "1"},
+           {"dark_share", "1", "dark pixels",
+            "share of pixels below a hundredth of the smooth lobe, and of the truth's"},
+           {"truth_dark_share", "1"},
+           {"largest_of_bound", "1", "largest glint",
+            "largest ratio to the smooth lobe over 1 / p, which one microdetail does not exceed; "
+            "and "
+            "the truth's"},
+           {"truth_largest_of_bound", "1"},
+           {"correlation", "1", "correlation of neighbours",
+            "autocorrelation over one pixel, and the truth's"},
+           {"truth_correlation", "1"},
+           {"error_swing", "1", "",
+            "how much `error`, `variance_ratio`, `dark_share`, `largest_of_bound`, `correlation` "
+            "and "
+            "`motion_ratio` move over a zoom by two in 16 steps: greatest less least"},
+           {"variance_swing", "1"},
+           {"dark_swing", "1"},
+           {"largest_swing", "1"},
+           {"correlation_swing", "1"},
+           {"motion_swing", "1"}},
       .cost_ratios = {"time_ratio"},
       .headline = Headline{"pareto", "settings on the front of accuracy against time", true},
       .section = accuracyHtml,

@@ -1,0 +1,18 @@
+#include "host/core/glint_grids.h"
+
+#include <cmath>
+
+namespace glintmark {
+namespace {
+
+using std::floor, std::sqrt;
+#include "kernels/glint/glint_grids.h"
+
+}  // namespace
+
+MaterialParams withGlintGrids(MaterialParams params, bool grooves) {
+  setGlintGrids(&params.glints, params.surface.alpha_g, grooves ? 1 : 0);
+  return params;
+}
+
+}  // namespace glintmark

@@ -1,0 +1,11 @@
+// What the grids of a material have in common over all pixels. [ZK16] Sect. 3, 4.4
+#pragma once
+#include "host/core/shared_types.h"
+
+namespace glintmark {
+
+/// `params` as a launch reads them: gamma and finest level of their grids set from the rest.
+/// `grooves`: microdetails run along u.
+MaterialParams withGlintGrids(MaterialParams params, bool grooves);
+
+}  // namespace glintmark

@@ -1,0 +1,32 @@
+// What the pixels of a lattice have in common: how bright, how dark, how they follow each other.
+#pragma once
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+namespace glintmark {
+
+/// Of pixels' ratios to the smooth lobe.
+struct GlintStatistics {
+  double mean = 0, variance = 0;
+  double dark = 0;     // share of pixels below kDarkRatio
+  double largest = 0;  // ratio
+  double correlation =
+      0;              // of a pixel with its right and its lower neighbour; 0 where nothing varies
+  double change = 0;  // mean absolute change when the view moves by a quarter of a pixel
+};
+
+/// A pixel is dark if it shows less than a hundredth of the smooth lobe.
+inline constexpr double kDarkRatio = 0.01;
+/// Pixels that the view moves by for GlintStatistics::change.
+inline constexpr double kGlintMotion_px = 0.25;
+
+/// `ratios` row after row, `columns` >= 1 a row; `moved` are the same pixels a little further on,
+/// empty if nothing moved. Throws Error for no pixels or sizes that do not fit.
+GlintStatistics glintStatistics(std::span<const float> ratios, int columns,
+                                std::span<const float> moved = {});
+
+/// The red channel.
+std::vector<float> redOf(std::span<const glm::vec3> ratios);
+
+}  // namespace glintmark
