@@ -86,7 +86,7 @@ double sampledCoverage(const reference::GridFootprint& grid, std::int32_t u, std
 TEST(CellsExact, ReferenceWeightsAreSharedAreas) {
   // The reference's polygon clipping, itself, against sampling.
   for (const HandMadePixel& pixel : randomPixels(20, {1e-3, 1e-2, 12})) {
-    const auto grids = reference::visitExact(pixel.footprint, {1, 1});
+    const auto grids = reference::visitExact(pixel.footprint, {glm::dvec2(1), -30});
     for (const GridVisit& visit : grids) {
       const auto grid = reference::inGrid(pixel.footprint, {1, 1}, visit.level);
       const double area = std::abs(grid.edge_x.x * grid.edge_y.y - grid.edge_x.y * grid.edge_y.x);
