@@ -2,19 +2,10 @@
 #pragma once
 #include <filesystem>
 
+#include "host/scene/import/import_options.h"
 #include "host/scene/part_mesh.h"
 
 namespace glintmark {
-
-/// What triangles without uvs get: planar ones in a file that has some and box ones in a file that
-/// has none, or always one of them.
-enum class UvProjection { kAuto, kPlanar, kBox };
-
-struct ImportOptions {
-  UvProjection uv = UvProjection::kAuto;
-  bool place_freely = false;     // may move and scale a mesh that floats hold badly where it is
-  bool wants_materials = false;  // of the file, which only glTF has for now
-};
 
 /// Reads every triangle of a file, its nodes' transforms applied, instances copied, in the file's
 /// order. A part is a material of the file. Normals that are missing are made, geometry without uvs

@@ -1,7 +1,7 @@
 // From what a file holds to a mesh that can be drawn.
 #pragma once
+#include "host/scene/import/import_options.h"
 #include "host/scene/import/mesh_source.h"
-#include "host/scene/import_mesh.h"
 
 namespace glintmark {
 

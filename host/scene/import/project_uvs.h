@@ -1,7 +1,7 @@
 // uvs for triangles that have none.
 #pragma once
+#include "host/scene/import/import_options.h"
 #include "host/scene/import/mesh_source.h"
-#include "host/scene/import_mesh.h"
 
 namespace glintmark {
 
