@@ -2,9 +2,8 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
-#include <cstdlib>
-
 #include <algorithm>
+#include <cstdlib>
 
 #include "host/core/atomic_file.h"
 #include "tests/cli/process.h"
@@ -124,7 +123,8 @@ TEST(Usage, AFullStandardOutputIsAnError) {
   for (const std::string& words :
        {std::string("--help"), std::string("--version"), std::string("info"),
         "render screen_plane --size 32x18 --quiet -o " + (folder / "a.png").string(),
-        "heatmap screen_plane --size 32x18 --quiet", std::string("simulate --rays 1000 --quiet"),
+        std::string("heatmap screen_plane --size 32x18 --quiet"),
+        std::string("simulate --rays 1000 --quiet"),
         std::string("verify --only ^maths/ --quiet")}) {
     const std::string command =
         program + " " + words + " >/dev/full 2>" + (folder / "err").string();
