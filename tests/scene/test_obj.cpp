@@ -1,4 +1,5 @@
 // OBJ files: numbers, encodings, faces of every kind.
+#include <chrono>
 #include <cmath>
 
 #include "host/scene/import/text_scanner.h"
@@ -94,6 +95,15 @@ TEST(Obj, FacesBesideTexturedOnesGetUvsOfTheirOwn) {
                      b = mesh.mesh.uvs[t.z] - mesh.mesh.uvs[t.x];
     EXPECT_GT(std::abs(a.x * b.y - a.y * b.x), 0.5);
   }
+}
+
+TEST(Obj, ManyUvsAtOnePlaceTakeLinearTime) {
+  std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\n";
+  constexpr int kFaces = 200000;
+  for (int i = 0; i < kFaces; ++i) text += "vt " + std::to_string(i) + " 1\nf 1/-1 2/1 3/2\n";
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_EQ(obj(text).mesh.triangleCount(), static_cast<std::size_t>(kFaces));
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(60));
 }
 
 TEST(Obj, DentedPolygonsKeepTheirArea) {

@@ -11,6 +11,7 @@
 #include "host/core/error.h"
 #include "host/scene/import/text_scanner.h"
 #include "host/scene/import/triangulate.h"
+#include "host/scene/import/vertex_table.h"
 
 namespace glintmark {
 namespace {
@@ -22,8 +23,9 @@ constexpr std::size_t kMostVertices = 0xFFFFFFF0u;
 /// A vertex of the mesh: what of each list a corner names.
 struct Corner {
   std::uint32_t position = 0, uv = kNone, normal = kNone;
-  std::uint32_t group = 1;     // smoothing group; of flat faces: kNone less the face's number
-  std::uint32_t next = kNone;  // corner of the same position
+  std::uint32_t group = 1;  // smoothing group; of flat faces: kNone less the face's number
+
+  bool operator==(const Corner&) const = default;
 };
 
 class ObjReader {
@@ -185,27 +187,31 @@ class ObjReader {
     if (wanted.uv != kNone && (last_uv_ == kNone || wanted.uv > last_uv_)) last_uv_ = wanted.uv;
     if (wanted.normal != kNone && (last_normal_ == kNone || wanted.normal > last_normal_))
       last_normal_ = wanted.normal;
-    if (wanted.position >= head_.size()) {
-      // A reference far ahead of its list would take memory for nothing.
-      if (wanted.position > positions_.size() + text_.size())
-        fail(
-            fmt::format("a face names vertex {}, an index out of range: the file is too short for "
-                        "that many",
-                        wanted.position + 1));
-      head_.resize(std::max<std::size_t>(positions_.size(), wanted.position + std::size_t{1}),
-                   kNone);
-    }
-    std::uint32_t* link = &head_[wanted.position];
-    while (*link != kNone) {
-      const Corner& c = corners_[*link];
-      if (c.uv == wanted.uv && c.normal == wanted.normal && c.group == wanted.group) return *link;
-      link = &corners_[*link].next;
-    }
     if (corners_.size() >= kMostVertices) fail("the mesh has more vertices than 4294967279");
-    const auto index = static_cast<std::uint32_t>(corners_.size());
-    *link = index;
-    corners_.push_back(wanted);
-    return index;
+    if (slots_.size() < corners_.size() + corners_.size() / 2 + 1) growTable();
+    std::uint32_t& slot = slots_[slotOf(wanted)];
+    if (slot == kNone) {
+      slot = static_cast<std::uint32_t>(corners_.size());
+      corners_.push_back(wanted);
+    }
+    return slot;
+  }
+
+  /// Where a corner like `wanted` stands in the table, or could.
+  std::size_t slotOf(const Corner& wanted) const {
+    const std::uint64_t hash =
+        mixedHash(mixedHash(0, static_cast<std::uint64_t>(wanted.position) << 32 | wanted.uv),
+                  static_cast<std::uint64_t>(wanted.normal) << 32 | wanted.group);
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t at = hash & mask;
+    while (slots_[at] != kNone && corners_[slots_[at]] != wanted) at = (at + 1) & mask;
+    return at;
+  }
+
+  void growTable() {
+    slots_.assign(std::max<std::size_t>(2 * slots_.size(), 1024), kNone);
+    for (std::size_t i = 0; i < corners_.size(); ++i)
+      slots_[slotOf(corners_[i])] = static_cast<std::uint32_t>(i);
   }
 
   void checkReferences() const {
@@ -221,7 +227,7 @@ class ObjReader {
 
   void fillVertices() {
     const std::size_t count = corners_.size();
-    head_ = {};
+    slots_ = {};
     out_.positions.reserve(count);
     out_.normals.reserve(count);
     out_.uvs.reserve(count);
@@ -244,7 +250,7 @@ class ObjReader {
   std::vector<glm::dvec3> positions_;
   std::vector<glm::dvec2> uvs_;
   std::vector<glm::vec3> normals_;
-  std::vector<std::uint32_t> head_;  // per position, its first corner
+  std::vector<std::uint32_t> slots_;  // hash table of corners_
   std::vector<Corner> corners_;
   std::uint32_t last_position_ = 0, last_uv_ = kNone, last_normal_ = kNone;
   // Of one face, kept for their memory.

@@ -5,8 +5,9 @@
 namespace glintmark {
 namespace {
 
-// Ears are looked for among so many corners at most; the rest is cut as a fan.
-constexpr std::size_t kMostEarCorners = 4096;
+// Ears are looked for among so many corners at most, since that takes the cube of their number in
+// the worst case; larger dented polygons are cut as a fan.
+constexpr std::size_t kMostEarCorners = 512;
 
 double cross(const glm::dvec2& a, const glm::dvec2& b) {
   return a.x * b.y - a.y * b.x;
