@@ -114,12 +114,13 @@ NormalMap loadMap(const CommonOptions& common, FitGmmCommand& command) {
     if (command.has_height_scale) recipe.height_scale = command.height_scale;
     return generateNormalMap(recipe);
   }
-  if (!std::filesystem::is_regular_file(command.source)) {
+  const std::string file = command.source.substr(0, command.source.rfind('#'));
+  if (!std::filesystem::exists(command.source) && !std::filesystem::exists(file)) {
     throw Error(fmt::format("'{}' is neither an image file nor a generated map; generators are {}",
                             command.source, fmt::join(known, ", ")));
   }
   if (command.has_height_scale) decoding.height_scale = command.height_scale;
-  return readNormalMap(command.source, readImage, decoding);
+  return readNormalMap(command.source, readNormals, decoding);
 }
 
 Fitted fitMap(const CommonOptions& common, const FitGmmCommand& command, NormalMap map) {

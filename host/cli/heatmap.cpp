@@ -57,6 +57,8 @@ int runView(const CommonOptions& common, const HeatmapCommand& command,
   const CountedCells counted = countCells(device, scene, view, shading, common.threads);
 
   const std::string name = scene.name + "/" + view.name;
+  if (counted.counts.glint_px == 0)
+    fmt::print(stderr, "note: no pixel of {} shows glints, so there are no cells\n", name);
   if (!command.picture.empty()) {
     const Image picture = heatmapPicture(counted.cells, {.scale = scale,
                                                          .title = name + ", cells per pixel",

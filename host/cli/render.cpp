@@ -1,6 +1,8 @@
 // glintmark render: one picture of a scene.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -50,6 +52,22 @@ void writeRendered(Image radiance, const RenderOptions& options, const PostEffec
   }
 }
 
+// Pixels with a value that is not finite.
+std::size_t brokenPixels(const Image& radiance) {
+  std::size_t broken = 0;
+  for (int y = 0; y < radiance.height; ++y)
+    for (int x = 0; x < radiance.width; ++x)
+      broken += !std::ranges::all_of(radiance.at(x, y), [](float v) { return std::isfinite(v); });
+  return broken;
+}
+
+bool coversNothing(const Image& radiance) {
+  for (int y = 0; y < radiance.height; ++y)
+    for (int x = 0; x < radiance.width; ++x)
+      if (radiance.at(x, y)[3] != 0) return false;
+  return true;
+}
+
 int runRender(const CommandLine& line, const RenderOptions& options) {
   const CommonOptions& common = line.common;
   const std::string extension = requireImageExtension(options.output);
@@ -86,10 +104,21 @@ int runRender(const CommandLine& line, const RenderOptions& options) {
     radiance = renderer.readRadiance(&read);
   }
   if (!options.trace.empty()) writeTrace(options.trace, describeRun(line, device));
+  const std::size_t broken = brokenPixels(radiance);
+  if (coversNothing(radiance))
+    fmt::print(stderr, "note: view {} of {} covers no pixel, so the picture is empty\n", view.name,
+               scene.name);
   writeRendered(std::move(radiance), options, scene.post, extension);
   if (!options.aov_output.empty()) writeExr(planesToImage(renderer.planes()), options.aov_output);
   printTimes(fmt::format("{}/{} {}x{}", scene.name, view.name, size.width_px, size.height_px),
              prepared, shaded, read.readback_ns);
+  if (broken > 0) {
+    fmt::print(stderr,
+               "glintmark: {} pixels of the picture are not finite: some value of the scene is too "
+               "large for single precision\n",
+               broken);
+    return kExitCheckFailed;
+  }
   return kExitDone;
 }
 

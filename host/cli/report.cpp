@@ -34,7 +34,10 @@ int runReport(const std::string& folder, const std::string& output) {
   for (const fs::path& file : pngFiles(folder)) pictures.push_back(readReportPicture(file));
   const std::string page =
       htmlReport(results, allTableSpecs(), pictures,
-                 fs::path(source).lexically_proximate(fs::absolute(output).parent_path()).string());
+                 fs::absolute(source)
+                     .lexically_normal()
+                     .lexically_relative(fs::absolute(output).lexically_normal().parent_path())
+                     .string());
   if (page.size() > kMostPageBytes)
     throw Error(fmt::format("the page would have {:.1f} MB without pictures, {} MB is the most",
                             static_cast<double>(page.size()) * 1e-6, kMostPageBytes / 1'000'000));

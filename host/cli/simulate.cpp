@@ -1,8 +1,10 @@
 // glintmark simulate: rays at a rough surface. [PAT18] "Using Brute Force Ray-Casting"
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 #include <numbers>
+#include <optional>
 
 #include "host/cli/command_line.h"
 #include "host/core/atomic_file.h"
@@ -12,6 +14,7 @@
 #include "host/experiment/interrupt.h"
 #include "host/experiment/msbrdf/lobe_picture.h"
 #include "host/report/picture/image_io.h"
+#include "host/report/record/folder_lock.h"
 #include "host/report/record/text_table.h"
 #include "host/simulate/simulation.h"
 #include "host/simulate/simulation_file.h"
@@ -137,8 +140,11 @@ int runSimulate(const CommandLine& line, const SimulateOptions& options) {
     if (!file.empty()) requireWritableFile(file);
   if (!options.picture.empty() && requireImageExtension(options.picture) != ".png")
     throw Error(fmt::format("--output '{}' must end in .png", options.picture));
+  std::optional<FolderLock> lock;
+  if (!options.checkpoint.empty())
+    lock.emplace(options.checkpoint + ".lock", options.checkpoint, "choose another --checkpoint");
   Simulation simulation{settings, 0, {}};
-  if (options.resume)
+  if (options.resume && std::filesystem::exists(options.checkpoint))
     simulation = unpackSimulation(readFile(options.checkpoint), settings, options.checkpoint);
 
   Device device = openDevice(line.common);
@@ -191,7 +197,7 @@ void addSimulateCommand(Command app, CommandLine& line) {
                  "Correlation length of the heights in texels (3)");
   command.option("--checkpoint", options->checkpoint, "Keeps what is done in this file")
       .typeName("FILE");
-  command.flag("--resume", options->resume, "Carries on from the checkpoint");
+  command.flag("--resume", options->resume, "Carries on from the checkpoint, if there is one");
   command.option("-o,--output", options->picture, "Picture of where the orders leave to")
       .typeName("FILE.png");
   command.option("--csv", options->csv, "Energy per order").typeName("FILE");

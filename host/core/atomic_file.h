@@ -1,5 +1,7 @@
 // Whole files: written, they appear whole or not at all.
 #pragma once
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <initializer_list>
 #include <string>
@@ -12,17 +14,20 @@ namespace glintmark {
 enum class Durability { kSynced, kUnsynced };
 
 /// A temporary file beside `target` that takes its name on commit(); without commit() it is
-/// removed and the target stays as it was.
+/// removed and the target stays as it was. Its name cannot be guessed, and what has it already, a
+/// symbolic link too, is left alone.
 class AtomicFile {
  public:
-  /// Creates the empty temporary file. Throws Error if the folder is missing or cannot be written,
+  /// Creates the empty temporary file, and removes those that killed runs have left in the folder.
+  /// Throws Error if the folder is missing or cannot be written,
   /// or if `target` exists and is not a regular file.
   explicit AtomicFile(const std::filesystem::path& target);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  const std::filesystem::path& tempPath() const { return temp_; }
+  /// Open for writing as long as this lives.
+  int descriptor() const { return descriptor_; }
   /// Flushes to the disk, unless told not to, and renames. Throws Error if either fails.
   void commit(Durability durability = Durability::kSynced);
 
@@ -31,8 +36,13 @@ class AtomicFile {
 
   std::filesystem::path target_;
   std::filesystem::path temp_;
+  int descriptor_ = -1;  // locked: whoever finds the file can see that its writer lives
   bool committed_ = false;
 };
+
+/// Removes the temporary files of AtomicFile that processes which are no more have left in a
+/// folder.
+void removeAbandonedFiles(const std::filesystem::path& folder);
 
 /// Writes a whole file of text or bytes. Throws Error naming the file and the system's reason.
 void writeFile(const std::filesystem::path& target, std::string_view text);
@@ -40,7 +50,28 @@ void writeFile(const std::filesystem::path& target, std::string_view text);
 void writeFile(const std::filesystem::path& target, std::initializer_list<std::string_view> pieces,
                Durability durability);
 
-/// Reads a whole file of text or bytes. Throws Error naming the file and the system's reason.
+/// A regular file opened for reading: a device, a pipe, a socket or a folder is refused at once,
+/// since it may have no end or never answer. Throws Error naming the file and the reason.
+class InputFile {
+ public:
+  explicit InputFile(const std::filesystem::path& path);
+  ~InputFile();
+  InputFile(const InputFile&) = delete;
+  InputFile& operator=(const InputFile&) = delete;
+
+  /// 0 for the files of /proc, which have bytes all the same.
+  std::uint64_t sizeBytes() const { return size_bytes_; }
+  /// Up to `count` bytes; fewer only at the end of the file.
+  std::size_t read(char* bytes, std::size_t count);
+
+ private:
+  std::filesystem::path path_;
+  int descriptor_ = -1;
+  std::uint64_t size_bytes_ = 0;
+};
+
+/// Reads a whole file of text or bytes. Throws Error like InputFile, and for more bytes than memory
+/// is free.
 std::string readFile(const std::filesystem::path& path);
 
 /// Creates `folder` with its parents and makes sure that files can be created in it. Throws Error

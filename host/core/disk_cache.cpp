@@ -1,6 +1,9 @@
 #include "host/core/disk_cache.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cstdint>
 #include <cstdlib>
@@ -71,14 +74,29 @@ DiskCache DiskCache::fromEnvironment() {
   return cache;
 }
 
+bool DiskCache::isOurs() const {
+  if (folder_.empty()) return false;
+  const int descriptor = open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  struct stat status = {};
+  bool ours = fstat(descriptor, &status) == 0 && status.st_uid == geteuid();
+  if (ours && (status.st_mode & (S_IRWXG | S_IRWXO)) != 0) ours = fchmod(descriptor, S_IRWXU) == 0;
+  close(descriptor);
+  return ours;
+}
+
 fs::path DiskCache::entryPath(const std::string& name) const {
   return folder_ / fmt::format("{:016x}.bin", fnv1a(name));
 }
 
 std::optional<std::string> DiskCache::load(const std::string& name, const std::string& key) const {
-  if (folder_.empty()) return std::nullopt;
+  if (!isOurs()) return std::nullopt;
   std::string entry;
   try {
+    struct stat status = {};
+    const fs::path file = entryPath(name);
+    if (lstat(file.c_str(), &status) != 0 || !S_ISREG(status.st_mode) || status.st_uid != geteuid())
+      return std::nullopt;
     entry = readFile(entryPath(name));
   } catch (const Error&) {
     return std::nullopt;
@@ -105,7 +123,10 @@ void DiskCache::store(const std::string& name, const std::string& key,
   append(head, fnv1a(binary));
 
   std::error_code error;
-  fs::create_directories(folder_, error);
+  fs::create_directories(folder_.parent_path(), error);
+  // A umask may take even the owner's rights.
+  if (mkdir(folder_.c_str(), S_IRWXU) == 0) chmod(folder_.c_str(), S_IRWXU);
+  if (!isOurs()) return;
   try {
     writeFile(entryPath(name), {head, binary}, Durability::kUnsynced);
   } catch (const Error&) {

@@ -11,6 +11,8 @@ namespace glintmark {
 ///   "glintmark.cache/1\n", key length, key, binary length, FNV-1a of the binary, binary;
 /// lengths and hash as 8 bytes in the machine's order. An entry is good for its whole key only; a
 /// new key under the same name (newer sources, say) replaces it, so that the folder stays small.
+/// Entries hold code that is run, so the folder is its owner's alone (0700); one that belongs to
+/// someone else is not used.
 class DiskCache {
  public:
   /// $GLINTMARK_CACHE_DIR, else $XDG_CACHE_HOME/glintmark, else ~/.cache/glintmark; "off" or no
@@ -26,6 +28,8 @@ class DiskCache {
   void store(const std::string& name, const std::string& key, const std::string& binary) const;
 
  private:
+  /// Is there a folder, and ours? Takes it from group and others where it is open to them.
+  bool isOurs() const;
   std::filesystem::path entryPath(const std::string& name) const;
   std::filesystem::path folder_;  // empty: off
 };

@@ -13,6 +13,7 @@ struct Image {
   int channels = 0;
   std::vector<float> pixels;                 // width * height * channels
   std::vector<std::string> channel_names{};  // empty, or one per channel (for EXR)
+  float step = 0;  // between neighbouring values of a file of 8 or 16 bits; 0: floats
 
   Image() = default;
   Image(int w, int h, int c)

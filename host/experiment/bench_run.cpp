@@ -10,6 +10,7 @@
 #include "host/core/progress.h"
 #include "host/core/trace.h"
 #include "host/experiment/interrupt.h"
+#include "host/experiment/run_inputs.h"
 #include "host/report/record/records.h"
 
 namespace glintmark {
@@ -39,8 +40,10 @@ std::filesystem::path checkedFolder(const BenchOptions& options) {
   return options.folder;
 }
 
-RunInfo describeRunWithPeaks(const Session& session, Device& device, ProgramCache& cache) {
+RunInfo describeRunWithPeaks(const Session& session, const BenchOptions& options, Device& device,
+                             ProgramCache& cache) {
   RunInfo info = describeRun(session, device);
+  info.inputs = hashInputs(session.common, options.scenes);
   const DevicePeaks peaks = measurePeaks(device, cache, info.width);
   info.peak_gflops = peaks.gflops;
   info.peak_gbs = peaks.gbs;
@@ -63,7 +66,7 @@ BenchRun::BenchRun(const Session& session, const BenchOptions& options)
       folder_(checkedFolder(options)),
       lock_(folder_),
       cache_(device_),
-      info_(describeRunWithPeaks(session, device_, cache_)),
+      info_(describeRunWithPeaks(session, options, device_, cache_)),
       key_(measurementKey(session.common, options, info_.width)),
       log_(openLog(options, info_)) {
   removeAbandonedFiles(folder_);

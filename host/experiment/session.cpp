@@ -12,9 +12,9 @@ namespace glintmark {
 namespace {
 
 constexpr int kMaxSize = 16384;
-// Host and device memory of one rendered frame: planes (48), radiance on the device and twice on
-// the host (48), visibility buffer (8), counts and pictures (24).
-constexpr unsigned long long kBytesPerPixel = 128;
+// Host and device memory of one rendered frame, measured: planes on both sides, radiance on the
+// device and twice on the host, visibility buffer, counts and pictures. bench takes 198.
+constexpr unsigned long long kBytesPerPixel = 200;
 
 bool parseInt(const char*& cursor, const char* end, int& value) {
   const auto [next, error] = std::from_chars(cursor, end, value);
@@ -67,7 +67,9 @@ Scene openScene(const CommonOptions& common, const std::string& name) {
                            .overrides = common.overrides,
                            .mesh_file = common.mesh_file,
                            .asset_folder = common.asset_folder,
-                           .image_loader = readImage});
+                           .image_loader = readColours,
+                           .normal_loader = readNormals,
+                           .image_decoder = decodeNormals});
   if (!common.quiet) {
     for (const std::string& note : scene.notes) fmt::print(stderr, "note: {}\n", note);
   }

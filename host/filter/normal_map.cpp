@@ -53,19 +53,47 @@ bool isGrey(const Image& image) {
   return true;
 }
 
-bool isSigned(const Image& image) {
-  for (std::size_t i = 0; i < image.pixels.size(); i += image.channels) {
-    if (image.pixels[i] < 0 || image.pixels[i + 1] < 0) return true;
-  }
-  return false;
-}
+// How the numbers of an image stand for components of normals: n = value * scale + offset.
+struct Coding {
+  float scale = 2, offset = -1;
+};
+
+constexpr Coding kCoded{2, -1}, kStored{1, 0};
+// Below 0 by more than what resampling leaves beside an edge.
+constexpr float kNegative = -0.01f;
+constexpr double kNegativeShare = 1e-3;
+constexpr float kExactTolerance = 0.01f;  // half floats
 
 // The stored normal of one texel, not yet unit, y still as the file has it.
-glm::vec3 storedNormal(const float* texel, int channels, bool has_sign) {
-  const float scale = has_sign ? 1.0f : 2.0f, offset = has_sign ? 0.0f : -1.0f;
-  const float x = texel[0] * scale + offset, y = texel[1] * scale + offset;
+glm::vec3 storedNormal(const float* texel, int channels, const Coding& coding, float step) {
+  float x = texel[0] * coding.scale + coding.offset, y = texel[1] * coding.scale + coding.offset;
+  // Whole numbers have none in the middle: those beside it both mean flat.
+  if (std::abs(x) < 1.5f * step && std::abs(y) < 1.5f * step) x = y = 0;
   if (channels == 2) return {x, y, std::sqrt(std::max(0.0f, 1 - x * x - y * y))};
-  return {x, y, texel[2] * scale + offset};
+  return {x, y, texel[2] * coding.scale + coding.offset};
+}
+
+// The coding that makes unit normals of more texels; of two channels, both would.
+Coding codingOf(const Image& image) {
+  std::size_t negative = 0, coded = 0, stored = 0, exact = 0;
+  const std::size_t texels = image.pixels.size() / static_cast<std::size_t>(image.channels);
+  const auto error = [&](const float* texel, const Coding& coding) {
+    return std::abs(glm::length(storedNormal(texel, image.channels, coding, 0)) - 1);
+  };
+  for (std::size_t i = 0; i < texels; ++i) {
+    const float* texel = image.pixels.data() + i * static_cast<std::size_t>(image.channels);
+    negative += texel[0] < kNegative || texel[1] < kNegative;
+    const float stored_error = error(texel, kStored);
+    coded += error(texel, kCoded) <= static_cast<float>(kUnitTolerance);
+    stored += stored_error <= static_cast<float>(kUnitTolerance);
+    exact += stored_error <= kExactTolerance;
+  }
+  const bool has_negative =
+      static_cast<double>(negative) > kNegativeShare * static_cast<double>(texels);
+  if (image.channels == 2 || coded == stored) return has_negative ? kStored : kCoded;
+  // Without a negative number a photograph may look like normals; only floats that are unit are.
+  const bool is_exact = image.step == 0 && exact == texels;
+  return stored > coded && (has_negative || is_exact) ? kStored : kCoded;
 }
 
 glm::vec3 liftToHorizon(const glm::vec3& unit) {
@@ -76,13 +104,13 @@ glm::vec3 liftToHorizon(const glm::vec3& unit) {
 NormalMap decodeNormals(const Image& image, const std::string& name, GreenAxis green) {
   NormalMap map{name, image.width, image.height, {}};
   map.normals.resize(static_cast<std::size_t>(image.width) * image.height);
-  const bool has_sign = isSigned(image);
+  const Coding coding = codingOf(image);
   const float green_sign = green == GreenAxis::kUp ? -1.0f : 1.0f;
   std::size_t outliers = 0, worst = 0;
   float worst_error = 0, worst_length = 1;
   for (std::size_t i = 0; i < map.normals.size(); ++i) {
     const glm::vec3 stored =
-        storedNormal(image.pixels.data() + i * image.channels, image.channels, has_sign);
+        storedNormal(image.pixels.data() + i * image.channels, image.channels, coding, image.step);
     const float length = glm::length(stored), error = std::abs(length - 1);
     if (error > kUnitTolerance) ++outliers;
     if (error > worst_error) worst_error = error, worst_length = length, worst = i;

@@ -50,10 +50,11 @@ struct NormalMapDecoding {
   double height_scale = 0.05;  // height of a value of 1, in units of the map's side, finite
 };
 
-/// Reads a normal map from `image` as image_io gives it. Normals are stored as (n + 1) / 2 or, in
-/// float images with a negative x or y, as n itself; they are made unit. Throws Error naming `name`
-/// and the texel for an empty or too large image, values that are not finite, normals that are not
-/// unit (see kUnitTolerance) and normals that point down.
+/// Reads a normal map from `image` as image_io gives it. Normals are stored as (n + 1) / 2 or as n
+/// itself, whichever makes unit normals of more texels; they are made unit. The two values beside
+/// the middle of 8 or 16 bits mean 0 where x and y both have them: flat stays flat. Throws Error
+/// naming `name` and the texel for an empty or too large image, values that are not finite, normals
+/// that are not unit (see kUnitTolerance) and normals that point down.
 NormalMap decodeNormalMap(const Image& image, const std::string& name,
                           const NormalMapDecoding& decoding = {});
 
@@ -61,7 +62,7 @@ NormalMap decodeNormalMap(const Image& image, const std::string& name,
 /// `height_scale` is the height of a value of 1 in units of the map's side. Throws Error as above.
 NormalMap normalsFromHeights(const Image& heights, double height_scale, const std::string& name);
 
-/// Loads `file` with `image_loader` (image_io's readImage) and decodes it; the map's name is the
+/// Loads `file` with `image_loader` (image_io's readNormals) and decodes it; the map's name is the
 /// file's.
 NormalMap readNormalMap(const std::filesystem::path& file,
                         const std::function<Image(const std::filesystem::path&)>& image_loader,

@@ -14,6 +14,8 @@ namespace {
 
 constexpr int kSkyWidth_px = 512;
 constexpr int kSkyHeight_px = 256;
+// Of the largest value: what ringing and fitted codes leave below 0.
+constexpr float kTinyShare = 0.01f;
 
 double luminance(const glm::dvec3& rgb) {
   return glm::dot(rgb, {0.2126, 0.7152, 0.0722});
@@ -139,6 +141,22 @@ ConeLight toCone(const Light& light) {
 }
 
 }  // namespace
+
+std::string clampTinyNegatives(Image& map) {
+  float largest = 0, least = 0;
+  for (const float value : map.pixels)
+    if (std::isfinite(value)) largest = std::max(largest, value);
+  std::size_t count = 0;
+  for (float& value : map.pixels) {
+    if (!(value < 0) || !(value >= -kTinyShare * largest)) continue;
+    ++count;
+    least = std::min(least, value);
+    value = 0;
+  }
+  if (count == 0) return "";
+  return fmt::format("{} values of the environment map below 0, at least {}, count as 0", count,
+                     least);
+}
 
 std::vector<ConeLight> cutEnvironment(const Image& map, const EnvironmentCut& cut) {
   checkMap(map);

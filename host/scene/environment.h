@@ -5,6 +5,7 @@
 // +x lies to the right of it. Pixels are radiance, linear rgb.
 #pragma once
 #include <glm/glm.hpp>
+#include <string>
 #include <vector>
 
 #include "host/core/image.h"
@@ -26,6 +27,10 @@ struct EnvironmentCut {
 /// map without pixels or with fewer than three channels, for a value that is negative or not
 /// finite, and for a black map.
 std::vector<ConeLight> cutEnvironment(const Image& map, const EnvironmentCut& cut);
+
+/// Sets values below 0 to 0 that are small beside the map's largest, as filters and fits leave
+/// them, and returns a sentence about them; empty if there are none.
+std::string clampTinyNegatives(Image& map);
 
 /// The flux (rgb) that an even cone of this irradiance brings: irradiance * 2 / (1 + cos(angle)).
 glm::dvec3 coneFlux(const ConeLight& light);

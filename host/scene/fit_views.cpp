@@ -41,7 +41,8 @@ void fitViews(const TriangleMesh& mesh, std::vector<View>& views) {
     low = glm::min(low, glm::dvec3(p));
     high = glm::max(high, glm::dvec3(p));
   }
-  const double radius = std::max(0.5 * glm::length(high - low), 1e-6);
+  const double size = glm::length(high - low);
+  const double radius = size > 0 ? 0.5 * size : 1;
   Orbit orbit;
   orbit.target = 0.5 * (low + high);
   orbit.normal = dominatingSide(mesh);

@@ -2,15 +2,16 @@
 #pragma once
 #include <filesystem>
 
+#include "host/scene/import/import_options.h"
 #include "host/scene/part_mesh.h"
 
 namespace glintmark {
 
 /// Reads every triangle of a file, its nodes' transforms applied, instances copied, in the file's
-/// order. A part is a material of the file; missing normals are made smooth. Geometry without uvs
-/// in a file that has some gets a planar projection, said in the notes. Images that the file names
-/// are not looked at. Throws Error for a file that cannot be read, has no triangles or no uvs at
-/// all, and for what checkMesh finds.
-PartMesh importMesh(const std::filesystem::path& file);
+/// order. A part is a material of the file. Normals that are missing are made, geometry without uvs
+/// gets a projection and triangles without area are left out, each said in the notes. uvs lie as
+/// maps do, row 0 of a picture at v = 0, whichever way v runs in the file. Throws Error for a file
+/// that cannot be read, has no triangles, or holds what is not finite or not there.
+PartMesh importMesh(const std::filesystem::path& file, const ImportOptions& options = {});
 
 }  // namespace glintmark

@@ -6,20 +6,23 @@
 
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
+#include "host/scene/file_materials.h"
 #include "host/scene/fit_views.h"
 #include "host/scene/mesh_checks.h"
 #include "host/scene/mesh_frames.h"
 #include "host/scene/overrides.h"
 #include "host/scene/read_scene_parts.h"
 #include "host/scene/scene_files.h"
+#include "host/scene/toml_depth.h"
 
 namespace glintmark {
 namespace {
 
 /// Material of a part by the rule that fits its name most closely: the name itself, else the
-/// longest start of it. Material 0 if none does.
-std::uint32_t materialOf(const std::string& part, const std::vector<MeshPlan::PartRule>& rules) {
-  std::uint32_t material = 0;
+/// longest start of it; `fallback` if none does.
+std::uint32_t materialOf(const std::string& part, const std::vector<MeshPlan::PartRule>& rules,
+                         std::uint32_t fallback) {
+  std::uint32_t material = fallback;
   std::size_t best = 0;
   for (const MeshPlan::PartRule& rule : rules) {
     if (rule.pattern == part) return rule.material;
@@ -31,11 +34,21 @@ std::uint32_t materialOf(const std::string& part, const std::vector<MeshPlan::Pa
   return material;
 }
 
-void buildMesh(const MeshPlan& plan, Scene& scene) {
+void buildMesh(const MeshPlan& plan, const SceneRequest& request, Scene& scene) {
   PartMesh built = plan.build();
+  const auto first_of_file = static_cast<std::uint32_t>(scene.materials.size());
+  if (plan.file_materials) {
+    if (built.materials.empty())
+      built.notes.push_back(
+          fmt::format("{} brings no materials, so the scene's are used", plan.source));
+    for (Material& material : toMaterials(built.materials, request, built.notes))
+      scene.materials.push_back(std::move(material));
+  }
   std::vector<std::uint32_t> material_of_part;
-  for (const std::string& part : built.parts) {
-    material_of_part.push_back(materialOf(part, plan.rules));
+  for (std::uint32_t i = 0; i < built.parts.size(); ++i) {
+    const bool has_own = plan.file_materials && i < built.materials.size();
+    material_of_part.push_back(
+        materialOf(built.parts[i], plan.rules, has_own ? first_of_file + i : 0));
   }
   for (std::uint32_t& index : built.mesh.triangle_materials) index = material_of_part[index];
   for (glm::dvec2& uv : built.mesh.uvs) uv *= plan.uv_scale;
@@ -69,6 +82,7 @@ void readPost(SceneTable& root, PostEffects& post) {
 }  // namespace
 
 toml::table parseSceneText(std::string_view text, const std::string& file) {
+  checkTomlDepth(text, file);
   try {
     return toml::parse(text, file);
   } catch (const toml::parse_error& error) {
@@ -93,6 +107,7 @@ PlannedScene planScene(toml::table& content, const std::string& file, const Scen
   readPost(root, scene.post);
   MeshPlan plan = readMesh(root, request, scene.materials);
   scene.environment = readEnvironment(root, request, scene.lights);
+  if (!scene.environment.note.empty()) scene.notes.push_back(scene.environment.note);
   root.finish();
   if (scene.lights.empty() && scene.area_lights.empty()) {
     root.fail("light",
@@ -108,7 +123,7 @@ Scene loadScene(const SceneRequest& request) {
   const MeshPlan& plan = planned.plan;
   Scene& scene = planned.scene;
 
-  buildMesh(plan, scene);
+  buildMesh(plan, request, scene);
   replaceViews(plan.own_views, scene.views);
   if (plan.needs_fitted_views) {
     fitViews(scene.mesh, scene.views);

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "host/core/image.h"
@@ -22,6 +23,10 @@ struct SceneRequest {
   /// Reads the images that `environment.image` (at least three channels, linear rgb) and a normal
   /// map's `file` name. A scene that names one cannot be loaded without it.
   std::function<Image(const std::filesystem::path&)> image_loader{};
+  /// Reads normal maps in its place, if there is one.
+  std::function<Image(const std::filesystem::path&)> normal_loader{};
+  /// The same of a normal map that a mesh file holds, from its bytes; the name is for messages.
+  std::function<Image(std::string_view bytes, const std::string& name)> image_decoder{};
 };
 
 /// Loads a scene. Throws Error with one sentence (file and line where there is one) for a missing

@@ -25,16 +25,16 @@ TriangleTangent tangentOf(const TriangleMesh& mesh, const glm::uvec3& triangle) 
 }
 
 /// Gives every vertex used on both sides a twin for its mirrored triangles.
-void splitMirroredVertices(TriangleMesh& mesh, const std::vector<TriangleTangent>& tangents) {
+void splitMirroredVertices(TriangleMesh& mesh, const std::vector<std::int8_t>& sides) {
   constexpr std::uint32_t kNone = 0xFFFFFFFFu;
   std::vector<std::uint8_t> used_unmirrored(mesh.positions.size(), 0);
-  for (std::size_t i = 0; i < tangents.size(); ++i) {
-    if (tangents[i].side <= 0) continue;
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    if (sides[i] <= 0) continue;
     for (int k = 0; k < 3; ++k) used_unmirrored[mesh.triangles[i][k]] = 1;
   }
   std::vector<std::uint32_t> twin(mesh.positions.size(), kNone);
-  for (std::size_t i = 0; i < tangents.size(); ++i) {
-    if (tangents[i].side >= 0) continue;
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    if (sides[i] >= 0) continue;
     for (int k = 0; k < 3; ++k) {
       const std::uint32_t vertex = mesh.triangles[i][k];
       if (!used_unmirrored[vertex]) continue;
@@ -52,18 +52,23 @@ void splitMirroredVertices(TriangleMesh& mesh, const std::vector<TriangleTangent
 }  // namespace
 
 void computeTangents(TriangleMesh& mesh) {
-  std::vector<TriangleTangent> tangents;
-  tangents.reserve(mesh.triangles.size());
-  for (const glm::uvec3& triangle : mesh.triangles) tangents.push_back(tangentOf(mesh, triangle));
-  splitMirroredVertices(mesh, tangents);
+  {
+    // Tangents are worked out twice rather than kept: meshes may have tens of millions.
+    std::vector<std::int8_t> triangle_sides;
+    triangle_sides.reserve(mesh.triangles.size());
+    for (const glm::uvec3& triangle : mesh.triangles)
+      triangle_sides.push_back(static_cast<std::int8_t>(tangentOf(mesh, triangle).side));
+    splitMirroredVertices(mesh, triangle_sides);
+  }
 
   std::vector<glm::dvec3> sums(mesh.positions.size(), glm::dvec3(0));
-  std::vector<float> sides(mesh.positions.size(), 1.0f);
-  for (std::size_t i = 0; i < tangents.size(); ++i) {
-    if (tangents[i].side == 0) continue;
+  std::vector<std::int8_t> sides(mesh.positions.size(), 1);
+  for (const glm::uvec3& triangle : mesh.triangles) {
+    const TriangleTangent tangent = tangentOf(mesh, triangle);
+    if (tangent.side == 0) continue;
     for (int k = 0; k < 3; ++k) {
-      sums[mesh.triangles[i][k]] += tangents[i].direction;
-      sides[mesh.triangles[i][k]] = static_cast<float>(tangents[i].side);
+      sums[triangle[k]] += tangent.direction;
+      sides[triangle[k]] = static_cast<std::int8_t>(tangent.side);
     }
   }
   mesh.tangents.resize(mesh.positions.size());

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "host/core/error.h"
+#include "host/scene/toml_depth.h"
 
 namespace glintmark {
 namespace {
@@ -22,12 +23,16 @@ std::vector<std::string> splitPath(const std::string& path, const std::string& s
       throw Error(fmt::format("{}: the path has an empty step, expected key.key=value", source));
     }
     if (end == path.size()) return steps;
+    if (steps.size() > kMostTomlDepth)
+      throw Error(
+          fmt::format("{}: the path has more than {} steps", source.substr(0, 80), kMostTomlDepth));
     begin = end + 1;
   }
 }
 
 /// A table with the one key `value`, which carries `source` as its place of origin.
 toml::table parseValue(const std::string& text, const std::string& source) {
+  checkTomlDepth(text, source);
   try {
     toml::table parsed = toml::parse("value = " + text, source);
     if (parsed.size() == 1) return parsed;

@@ -88,6 +88,7 @@ EnvironmentInfo readEnvironment(SceneTable& root, const SceneRequest& request,
       table->fail("image", "names an image, but this program reads no images; remove it for a sky");
     }
     map = request.image_loader(file);
+    info.note = clampTinyNegatives(map);
     info.file = file.string();
   }
   const std::vector<ConeLight> cones = cutEnvironment(map, cut);

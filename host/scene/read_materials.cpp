@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_set>
 
 #include "host/core/error.h"
 #include "host/core/float4.h"
@@ -110,12 +111,11 @@ Material readMaterial(SceneTable& table, const SceneRequest& request) {
 
 std::vector<Material> readMaterials(SceneTable& root, const SceneRequest& request) {
   std::vector<Material> materials;
+  std::unordered_set<std::string> names;
   for (SceneTable& table : root.tables("material")) {
     Material material = readMaterial(table, request);
     if (material.name.empty()) table.fail("name", "is missing, expected the material's name");
-    for (const Material& other : materials) {
-      if (other.name == material.name) table.fail("name", "is taken by another material");
-    }
+    if (!names.insert(material.name).second) table.fail("name", "is taken by another material");
     materials.push_back(std::move(material));
   }
   if (materials.empty()) root.fail("material", "is missing, expected at least one [[material]]");

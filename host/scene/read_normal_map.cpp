@@ -40,9 +40,10 @@ NormalMapRecipe readRecipe(SceneTable& table) {
 NormalMap loadFile(const SceneTable& table, const std::string& file, const SceneRequest& request,
                    const NormalMapDecoding& decoding) {
   const std::filesystem::path path = findSceneResource(file, table.file(), "normal map");
-  if (!request.image_loader)
+  const auto& loader = request.normal_loader ? request.normal_loader : request.image_loader;
+  if (!loader)
     table.fail("file", "names an image, but this program reads no images; name a generator");
-  return readNormalMap(path, request.image_loader, decoding);
+  return readNormalMap(path, loader, decoding);
 }
 
 }  // namespace

@@ -46,6 +46,7 @@ struct MeshPlan {
   std::vector<PartRule> rules;  // the closest match counts; no match: material 0
   std::vector<View> own_views;  // of the asset: they replace the scene's views of the same names
   std::string missing_asset;    // looked for in the asset folder and not found
+  bool file_materials = false;  // the file's own, except of parts that a rule names
   bool needs_fitted_views = false;  // a stranger's mesh: the scene's cameras mean nothing
 };
 

@@ -88,6 +88,7 @@ struct EnvironmentInfo {
   bool present = false;
   std::string file;  // empty: procedural sky
   int cone_count = 0;
+  std::string note{};  // what was changed in the map; empty: nothing
 };
 
 struct PostEffects {

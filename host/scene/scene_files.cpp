@@ -54,8 +54,14 @@ fs::path findSceneFile(const std::string& scene) {
 fs::path findSceneResource(const fs::path& file, const fs::path& scene_file,
                            const std::string& what) {
   std::error_code error;
+  const std::string text = file.string();
+  const std::size_t layer = text.rfind('#');
   for (const fs::path& candidate : {scene_file.parent_path() / file, file}) {
-    if (fs::is_regular_file(candidate, error)) return candidate;
+    if (fs::exists(candidate, error)) return candidate;
+    if (layer == std::string::npos) continue;
+    // A layer of a file is named after it.
+    const std::string whole = candidate.string();
+    if (fs::exists(whole.substr(0, whole.rfind('#')), error)) return candidate;
   }
   throw Error(fmt::format("no {} file {}, expected a file that exists, beside {} or from here",
                           what, file.string(), scene_file.string()));

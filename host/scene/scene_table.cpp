@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "host/core/error.h"
@@ -26,8 +27,8 @@ std::string describe(const toml::node& node) {
 }  // namespace
 
 std::string Range::text() const {
-  const bool no_low = low == std::numeric_limits<double>::lowest();
-  const bool no_high = high == std::numeric_limits<double>::max();
+  const bool no_low = low == -kLargestNumber;
+  const bool no_high = high == kLargestNumber;
   if (no_low && no_high) return "a finite number";
   if (no_high) return fmt::format("a number {} {}", open_low ? "above" : "of at least", low);
   return fmt::format("a number in {}{}, {}]", open_low ? '(' : '[', low, high);
@@ -70,6 +71,8 @@ bool SceneTable::isText(std::string_view key) {
 double SceneTable::checkedNumber(std::string_view key, const toml::node& node,
                                  const Range& range) const {
   const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
+  if (value && std::isfinite(*value) && std::abs(*value) > kLargestNumber)
+    fail(key, fmt::format("is {}, beyond the range of single precision, 3.4e38", describe(node)));
   if (!value || !range.contains(*value)) {
     fail(key, fmt::format("is {}, expected {}", describe(node), range.text()));
   }

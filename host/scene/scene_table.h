@@ -13,10 +13,13 @@
 
 namespace glintmark {
 
+/// Whatever a scene says ends in floats.
+inline constexpr double kLargestNumber = std::numeric_limits<float>::max();
+
 /// A closed range of numbers, or open at its lower end. NaN and infinity are never inside.
 struct Range {
-  double low = std::numeric_limits<double>::lowest();
-  double high = std::numeric_limits<double>::max();
+  double low = -kLargestNumber;
+  double high = kLargestNumber;
   bool open_low = false;
 
   bool contains(double value) const {
@@ -26,8 +29,8 @@ struct Range {
   std::string text() const;
 };
 inline constexpr Range kFinite{};
-inline constexpr Range kPositive{0, std::numeric_limits<double>::max(), true};
-inline constexpr Range kNotNegative{0, std::numeric_limits<double>::max(), false};
+inline constexpr Range kPositive{0, kLargestNumber, true};
+inline constexpr Range kNotNegative{0, kLargestNumber, false};
 
 /// "FILE:LINE: " of a node, the whole "--set KEY=VALUE: " if it came from the command line.
 std::string locate(const toml::node& node, const std::string& file);

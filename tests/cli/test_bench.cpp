@@ -146,5 +146,26 @@ TEST(Bench, EffectsOfOneSetResumedAfterAnInterrupt) {
   EXPECT_TRUE(readFile(folder / "r/records.jsonl").starts_with(kept));
 }
 
+TEST(Bench, ResumingLooksAtWhatFilesHold) {
+  const TempFolder folder;
+  const std::string quad = "v 0 0 0\nv 1 0 0\nv 1 0 -1\nv 0 0 -1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
+  const std::string mesh = folder / "quad.obj";
+  writeFile(mesh, quad + "f 1/1 2/2 3/3 4/4\n");
+  const auto bench = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"bench",  "zk16",   "--quiet", "--scene", "screen_plane",
+                                          "--view", "steep",  "--size",  "64x36",   "--reps",
+                                          "1",      "--mesh", mesh,      "-o",      folder / "r"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return runGlintmark(arguments);
+  };
+  EXPECT_EQ(bench({}).exit_code, 0);
+  EXPECT_EQ(bench({"--resume"}).exit_code, 0);
+  writeFile(mesh, quad + "f 1/1 2/2 3/3\n");
+  const ProcessResult changed = bench({"--resume"});
+  EXPECT_EQ(changed.exit_code, 2);
+  EXPECT_NE(changed.err.find("kernels, tables, scenes and meshes"), std::string::npos)
+      << changed.err;
+}
+
 }  // namespace
 }  // namespace glintmark

@@ -44,6 +44,32 @@ TEST(Render, ExrHoldsRadiance) {
   EXPECT_EQ(folder.entryCount(), 1u);
 }
 
+TEST(Render, PicturesThatAreNotFiniteAreNotSilent) {
+  const TempFolder folder;
+  // 1e38 is a float, but not twice what it is multiplied by.
+  const ProcessResult result =
+      runGlintmark({"render", "screen_plane", "-o", folder / "a.exr", "--size", "32x18", "--set",
+                    "light.0.irradiance=3e38", "--set", "material.0.intensity=1e30"});
+  EXPECT_EQ(result.exit_code, 1) << result.err;
+  EXPECT_NE(result.err.find("pixels of the picture are not finite"), std::string::npos)
+      << result.err;
+  const ProcessResult beyond = runGlintmark(
+      {"render", "screen_plane", "-o", folder / "b.exr", "--set", "light.0.irradiance=1e308"});
+  EXPECT_EQ(beyond.exit_code, 2);
+  EXPECT_NE(beyond.err.find("light.0.irradiance"), std::string::npos) << beyond.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "b.exr"));
+}
+
+TEST(Render, AViewOfNothingSaysSo) {
+  const TempFolder folder;
+  const ProcessResult result =
+      runGlintmark({"render", "screen_plane", "-o", folder / "a.exr", "--size", "32x18", "--set",
+                    "view.0={name=\"away\", eye=[0, 5, 0], target=[0, 9, 1]}"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("view away of screen_plane covers no pixel"), std::string::npos)
+      << result.err;
+}
+
 TEST(Render, PngAndPlanes) {
   const TempFolder folder;
   const ProcessResult result =

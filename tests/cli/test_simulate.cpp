@@ -5,6 +5,7 @@
 
 #include "host/core/atomic_file.h"
 #include "host/report/picture/image_io.h"
+#include "host/report/record/folder_lock.h"
 #include "tests/cli/process.h"
 
 namespace glintmark {
@@ -64,8 +65,9 @@ TEST(Simulate, CarriesOnFromItsOwnCheckpointsOnly) {
   const TempFolder folder;
   const std::string file = folder / "run.sim";
   expectRefusedSimulation({"--resume"}, {"--resume", "--checkpoint FILE"});
-  expectRefusedSimulation({"--resume", "--checkpoint", file}, {"run.sim"});
-  ASSERT_EQ(simulate({"--rays", "1048576", "--checkpoint", file}).exit_code, 0);
+  // Without a file to carry on from it starts afresh.
+  ASSERT_EQ(simulate({"--rays", "1048576", "--checkpoint", file, "--resume"}).exit_code, 0);
+  EXPECT_EQ(folder.entryCount(), 1u);  // no lock is left
   const std::string whole = readFile(file);
   expectRefusedSimulation({"--resume", "--checkpoint", file, "--alpha", "0.5"},
                           {"run.sim", "another run", "alpha=0.8", "alpha=0.5"});
@@ -81,6 +83,14 @@ TEST(Simulate, CarriesOnFromItsOwnCheckpointsOnly) {
   expectRefusedSimulation({"--resume", "--checkpoint", file}, {"run.sim", "damaged"});
   writeFile(file, "a letter");
   expectRefusedSimulation({"--resume", "--checkpoint", file}, {"run.sim", "not a checkpoint"});
+}
+
+TEST(Simulate, ACheckpointBelongsToOneRun) {
+  const TempFolder folder;
+  const std::string file = folder / "run.sim";
+  const FolderLock held(file + ".lock", file, "wait");
+  expectRefusedSimulation({"--rays", "1000", "--checkpoint", file},
+                          {"run.sim", "in use by another run", "--checkpoint"});
 }
 
 TEST(Simulate, SaysRoughnessAndBalanceAndDrawsPictures) {

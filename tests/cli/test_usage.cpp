@@ -1,7 +1,9 @@
 // Help, and what bad usage gives: one clear sentence, the right exit code, no files.
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "host/core/atomic_file.h"
 #include "tests/cli/process.h"
@@ -113,6 +115,24 @@ TEST(Usage, OutputsAreCheckedBeforeWork) {
   expectError({"bench", "-o", "/proc/glintmark"}, 2, {"/proc/glintmark"});
   expectError({"bench", "-o", folder / "r", "--json", folder / "none/a.json"}, 2, {"none/a.json"});
   EXPECT_FALSE(std::filesystem::exists(folder / "a.png"));
+}
+
+TEST(Usage, AFullStandardOutputIsAnError) {
+  const TempFolder folder;
+  const std::string program = GLINTMARK_BINARY_DIR "/bin/glintmark";
+  for (const std::string& words :
+       {std::string("--help"), std::string("--version"), std::string("info"),
+        "render screen_plane --size 32x18 --quiet -o " + (folder / "a.png").string(),
+        std::string("heatmap screen_plane --size 32x18 --quiet"),
+        std::string("simulate --rays 1000 --quiet"),
+        std::string("verify --only ^maths/ --quiet")}) {
+    const std::string command =
+        program + " " + words + " >/dev/full 2>" + (folder / "err").string();
+    const int status = std::system(command.c_str());
+    EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 2) << words;
+    EXPECT_NE(readFile(folder / "err").find("cannot write the standard output"), std::string::npos)
+        << words << ": " << readFile(folder / "err");
+  }
 }
 
 }  // namespace

@@ -1,9 +1,15 @@
 // Whole files: what is written is what is read, and what fails leaves nothing behind.
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <filesystem>
 #include <iterator>
+#include <set>
+#include <string>
 
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
@@ -58,6 +64,51 @@ TEST_F(AtomicFiles, WhatCannotBeReadIsNamed) {
       EXPECT_NE(std::string(error.what()).find("cannot read " + path.string()), std::string::npos);
     }
   }
+}
+
+TEST_F(AtomicFiles, WhatHasNoEndOrDoesNotAnswerIsRefused) {
+  ASSERT_EQ(mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  for (const fs::path& path : {folder_ / "pipe", fs::path("/dev/zero"), fs::path("/dev/null")}) {
+    try {
+      readFile(path);
+      ADD_FAILURE() << path << " was read";
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("a device, a pipe or a socket"), std::string::npos);
+    }
+  }
+}
+
+TEST_F(AtomicFiles, TemporaryNamesCannotBeGuessedAndAreShortEnough) {
+  std::set<std::string> names;
+  for (int i = 0; i < 50; ++i) {
+    const AtomicFile file(folder_ / "a");
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder_))
+      names.insert(entry.path().filename().string());
+  }
+  EXPECT_EQ(names.size(), 50u);
+  const std::string longest(255, 'n');
+  writeFile(folder_ / longest, "x");
+  EXPECT_EQ(readFile(folder_ / longest), "x");
+}
+
+TEST_F(AtomicFiles, WhatAKilledRunLeftGoesWithTheNextAndWhatLivesStays) {
+  const pid_t child = fork();
+  if (child == 0) {
+    const AtomicFile file(folder_ / "a");
+    _exit(0);  // without destructors, as a kill ends it
+  }
+  ASSERT_EQ(waitpid(child, nullptr, 0), child);
+  const AtomicFile living(folder_ / "b");
+  // Those of a process of that number elsewhere are held by a lock.
+  const fs::path foreign = folder_ / (".c.00.1" + std::to_string(child) + ".tmp");
+  const int held = open(foreign.c_str(), O_WRONLY | O_CREAT, 0600);
+  flock(held, LOCK_EX);
+  removeAbandonedFiles(folder_);
+  EXPECT_EQ(filesInFolder(), 2);
+  EXPECT_TRUE(fs::exists(foreign));
+  close(held);
+  removeAbandonedFiles(folder_);
+  EXPECT_EQ(filesInFolder(), 1);
 }
 
 TEST_F(AtomicFiles, WhatFailsLeavesTheOldFileAndNothingElse) {

@@ -50,6 +50,42 @@ TEST(NormalMap, ReadsSignedFloatsAndTwoChannels) {
   EXPECT_NEAR(two.at(0, 0).z, 0.8f, 1e-6f);
 }
 
+TEST(NormalMap, FlatStaysFlat) {
+  for (const float step : {1.0f / 255, 1.0f / 65535}) {
+    const float above = (0.5f + step / 2), below = 0.5f - step / 2;
+    for (const float x : {above, below})
+      for (const float y : {above, below}) {
+        Image image = texelImage(3, {x, y, 1, 0.6f, 0.5f, 0.98f});
+        image.step = step;
+        EXPECT_EQ(decodeNormalMap(image, "map").at(0, 0), glm::vec3(0, 0, 1)) << x << " " << y;
+        // The next step up is a slope.
+        image.pixels[0] = above + step;
+        EXPECT_GT(decodeNormalMap(image, "map").at(0, 0).x, step);
+      }
+  }
+}
+
+TEST(NormalMap, SignAndRangeAreThoseThatMakeUnitNormals) {
+  // Stored as (n + 1) / 2 with one value that resampling took below 0.
+  Image coded(32, 32, 3);
+  for (std::size_t i = 0; i < coded.pixels.size(); i += 3) {
+    const glm::vec3 n = glm::normalize(glm::vec3(0.3f, -0.2f, 1));
+    for (int c = 0; c < 3; ++c) coded.pixels[i + static_cast<std::size_t>(c)] = 0.5f * n[c] + 0.5f;
+  }
+  const glm::vec3 wanted = decodeNormalMap(coded, "map").at(5, 5);
+  EXPECT_NEAR(wanted.x, 0.3f / std::sqrt(1.13f), 1e-5f);
+  coded.pixels[0] = -0.001f, coded.pixels[1] = coded.pixels[2] = 0.5f;
+  EXPECT_EQ(decodeNormalMap(coded, "map").at(5, 5), wanted);
+  // Stored as they are, none of them with a negative component.
+  Image stored(32, 32, 3);
+  for (std::size_t i = 0; i < stored.pixels.size(); i += 3)
+    stored.pixels[i] = 0.36f, stored.pixels[i + 1] = 0.48f, stored.pixels[i + 2] = 0.8f;
+  EXPECT_NEAR(decodeNormalMap(stored, "map", {.green = GreenAxis::kDown}).at(3, 3).y, 0.48f, 1e-6f);
+  // Of eight bits they are a picture of something else.
+  stored.step = 1.0f / 255;
+  EXPECT_THROW(decodeNormalMap(stored, "map"), Error);
+}
+
 TEST(NormalMap, HeightsGiveTheSlopesOfASine) {
   constexpr int kSize = 64;
   constexpr double kScale = 0.1;

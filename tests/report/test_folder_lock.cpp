@@ -1,6 +1,7 @@
 #include "host/report/record/folder_lock.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -32,6 +33,19 @@ TEST(FolderLock, AFileThatAKilledRunLeftIsNoLock) {
   ASSERT_EQ(waitpid(child, nullptr, 0), child);
   EXPECT_EQ(folder.entryCount(), 1u);
   const FolderLock lock(folder.path());
+}
+
+TEST(FolderLock, LinksAndPipesAreNotFollowed) {
+  const TempFolder folder;
+  writeFile(folder / "target", "kept");
+  std::filesystem::create_symlink(folder / "target", folder / ".lock");
+  EXPECT_NE(messageOf<Error>([&] { FolderLock lock(folder.path()); }).find("symbolic link"),
+            std::string::npos);
+  EXPECT_EQ(readFile(folder / "target"), "kept");
+  std::filesystem::remove(folder / ".lock");
+  ASSERT_EQ(mkfifo((folder / ".lock").c_str(), 0600), 0);
+  EXPECT_NE(messageOf<Error>([&] { FolderLock lock(folder.path()); }).find("no regular file"),
+            std::string::npos);
 }
 
 TEST(FolderLock, OnlyFilesOfTheDeadAreRemoved) {

@@ -1,4 +1,5 @@
 #include "host/report/page/html_report.h"
+#include "host/report/page/html_text.h"
 
 #include <gtest/gtest.h>
 
@@ -104,6 +105,13 @@ TEST(HtmlReport, HistogramsAreReadBackFromHeatmaps) {
   EXPECT_EQ(read.mean, truth.mean);
   EXPECT_EQ(countOf(histogramSvg(read), "<rect"), 57u);
   EXPECT_EQ(histogramSvg(cellDistribution(Image(0, 0, 1))), "");
+}
+
+TEST(HtmlText, LinksAreRelativeAndPercentEncoded) {
+  EXPECT_EQ(linkTo("results.json"), "./results.json");
+  EXPECT_EQ(linkTo("../a b/50%#?\"'<.json"), "./../a%20b/50%25%23%3F%22%27%3C.json");
+  EXPECT_EQ(linkTo("javascript:x"), "./javascript%3Ax");
+  EXPECT_EQ(linkTo("\xC3\xA4"), "./%C3%A4");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "host/report/record/record_log.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <fstream>
@@ -109,6 +110,62 @@ TEST(RecordLog, DamageBeforeTheLastLineIsAnError) {
   EXPECT_NE(message.find("a.jsonl line 2"), std::string::npos) << message;
 }
 
+// Whatever byte flips, no figure is another's: the line is refused, or read as it was.
+TEST(RecordLog, FlippedBytesAreFound) {
+  const TempFolder folder;
+  {
+    RecordLog log = RecordLog::create(folder / "a.jsonl", sampleRun());
+    appendOne(log, sampleRecord("a/b", "m", 1.25));
+    appendOne(log, sampleRecord("a/c", "m", 3));
+  }
+  const std::string whole = readFile(folder / "a.jsonl");
+  const LogContent wanted = parseLog(whole, "log");
+  std::size_t refused = 0;
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    for (const int bit : {1, 2, 16}) {
+      std::string text = whole;
+      text[i] = static_cast<char>(text[i] ^ bit);
+      try {
+        const LogContent content = parseLog(text, "log");
+        ASSERT_LE(content.records.size(), 2u);
+        for (std::size_t r = 0; r < content.records.size(); ++r)
+          EXPECT_EQ(recordLine(content.records[r]), recordLine(wanted.records[r])) << i;
+      } catch (const Error&) {
+        ++refused;
+      }
+    }
+  }
+  EXPECT_GT(refused, 3 * whole.size() * 9 / 10);
+}
+
+TEST(RecordLog, LogsOfEarlierVersionsHaveNoChecksums) {
+  const std::string text =
+      headerLine(sampleRun()) + "\n" + recordLine(sampleRecord("a/b", "m", 1)) + "\n";
+  EXPECT_EQ(parseLog(text, "log").records.size(), 1u);
+  const std::string mixed =
+      withChecksum(headerLine(sampleRun())) + "\n" + recordLine(sampleRecord("a/b", "m", 1)) + "\n";
+  EXPECT_NE(messageOf<Error>([&] { parseLog(mixed, "log"); }).find("line 2"), std::string::npos);
+}
+
+TEST(RecordLog, PipesAndLinksAreRefusedAtOnce) {
+  const TempFolder folder;
+  ASSERT_EQ(mkfifo((folder / "pipe.jsonl").c_str(), 0600), 0);
+  writeFile(folder / "target", "kept");
+  std::filesystem::create_symlink(folder / "target", folder / "link.jsonl");
+  std::filesystem::create_symlink(folder / "nowhere", folder / "dangling.jsonl");
+  for (const bool resume : {false, true}) {
+    const auto open = [&](const char* name) {
+      return resume ? RecordLog::resume(folder / name, sampleRun())
+                    : RecordLog::create(folder / name, sampleRun());
+    };
+    EXPECT_THROW(open("pipe.jsonl"), Error) << resume;
+    EXPECT_THROW(open("dangling.jsonl"), Error) << resume;
+  }
+  { RecordLog::create(folder / "link.jsonl", sampleRun()); }
+  EXPECT_EQ(readFile(folder / "target"), "kept");
+  EXPECT_FALSE(std::filesystem::exists(folder / "nowhere"));
+}
+
 TEST(RecordLog, OtherSetupsAreRefused) {
   const TempFolder folder;
   { RecordLog::create(folder / "a.jsonl", sampleRun()); }
@@ -122,6 +179,12 @@ TEST(RecordLog, OtherSetupsAreRefused) {
   run.width = 8;
   EXPECT_NE(refusal(run).find("width"), std::string::npos);
   run = sampleRun();
+  run.driver = "other";
+  EXPECT_NE(refusal(run).find("driver"), std::string::npos);
+  run = sampleRun();
+  run.inputs = "0123";
+  EXPECT_NE(refusal(run).find("kernels, tables, scenes and meshes"), std::string::npos);
+  run = sampleRun();
   run.git = "other";
   EXPECT_NE(refusal(run).find("program version"), std::string::npos);
   writeFile(folder / "a.jsonl", "{\"schema\":\"glintmark.results/9\",\"run\":{}}\n");
@@ -133,14 +196,14 @@ TEST(RecordLog, MissingOrEmptyLogStartsAfresh) {
   EXPECT_TRUE(RecordLog::resume(folder / "none.jsonl", sampleRun()).records().empty());
   writeFile(folder / "cut.jsonl", "{\"schema\":\"glint");
   EXPECT_TRUE(RecordLog::resume(folder / "cut.jsonl", sampleRun()).records().empty());
-  EXPECT_EQ(readFile(folder / "cut.jsonl"), headerLine(sampleRun()) + "\n");
+  EXPECT_EQ(readFile(folder / "cut.jsonl"), withChecksum(headerLine(sampleRun())) + "\n");
 }
 
 TEST(RecordLog, CreateKeepsAnOldLogUnderAnotherName) {
   const TempFolder folder;
   writeFile(folder / "a.jsonl", "old");
   { RecordLog::create(folder / "a.jsonl", sampleRun()); }
-  EXPECT_EQ(readFile(folder / "a.jsonl"), headerLine(sampleRun()) + "\n");
+  EXPECT_EQ(readFile(folder / "a.jsonl"), withChecksum(headerLine(sampleRun())) + "\n");
   EXPECT_EQ(readFile(folder / "a.jsonl.old"), "old");
 }
 

@@ -1,4 +1,6 @@
 // Every mistake in a scene file gets one sentence that names the place and what would be right.
+#include <chrono>
+
 #include "tests/scene/scene_test_tools.h"
 
 namespace glintmark {
@@ -160,6 +162,56 @@ TEST(BadScenes, ImageWithoutALoader) {
                 {"environment.image"});
   expectMessage(complaint(folder, sceneText() + "[environment]\nimage = 'none.hdr'"),
                 {"no environment image file none.hdr"});
+}
+
+TEST(BadScenes, DepthIsBoundedBeforeTheParser) {
+  const TemporaryFolder folder;
+  const auto repeated = [](const std::string& text, int times) {
+    std::string all;
+    for (int i = 0; i < times; ++i) all += text;
+    return all;
+  };
+  for (const int levels : {100, 50000}) {
+    expectMessage(complaint(folder, "\n[a" + repeated(".a", levels) + "]\n"),
+                  {"scene.toml:2: has a key of more steps than the 64"});
+    expectMessage(complaint(folder, "a" + repeated(" . 'a'", levels) + " = 1\n"), {"more steps"});
+    expectMessage(complaint(folder, "a = {b" + repeated(".b", levels) + " = 1}\n"), {"more steps"});
+    expectMessage(complaint(folder, "a = " + repeated("[", levels) + "\n"), {"more brackets"});
+    expectMessage(complaint(folder, "a = " + repeated("{a=", levels) + "\n"), {"more brackets"});
+    const std::string scene = folder.write("good.toml", sceneText());
+    expectMessage(errorOf([&] { load(scene, {"a" + repeated(".a", levels) + "=1"}); }),
+                  {"--set", "64 steps"});
+    expectMessage(errorOf([&] { load(scene, {"a=" + repeated("[", levels)}); }), {"more brackets"});
+  }
+  // Points and brackets in texts, comments and lists of numbers are none.
+  const std::string plain =
+      "# " + repeated("[.", 200) + "\ndescription = \"\"\"\n" + repeated("[.", 200) +
+      "\\\"\"\"\"\n" +
+      sceneText("generator = 'plane'\nparts = { 'a" + repeated(".[", 200) + "' = 'paint' }");
+  EXPECT_EQ(load(folder.write("plain.toml", plain)).views.size(), 1u);
+}
+
+TEST(BadScenes, ManyMaterialsAreReadInSeconds) {
+  const TemporaryFolder folder;
+  std::string text = sceneText(), parts;
+  for (int i = 0; i < 100000; ++i) {
+    text += "[[material]]\nname = \"m" + std::to_string(i) + "\"\n";
+    if (i % 10 == 0) parts += "p" + std::to_string(i) + " = \"m" + std::to_string(i) + "\"\n";
+  }
+  const std::string file = folder.write("many.toml", text + "[mesh.parts]\n" + parts);
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_EQ(load(file).materials.size(), 100001u);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(60));
+}
+
+TEST(BadScenes, NumbersBeyondFloatsAreRefusedWithTheirKey) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("scene.toml", sceneText());
+  for (const char* set :
+       {"light.sun.irradiance=1e308", "light.sun.irradiance=[1, 3.5e38, 1]",
+        "material.paint.intensity=1e39", "post.exposure=1e300", "view.front.eye=[0, -1e39, 1]"})
+    expectMessage(errorOf([&] { load(scene, {set}); }), {set, "range of single precision, 3.4e38"});
+  EXPECT_EQ(load(scene, {"light.sun.irradiance=1e38"}).lights.size(), 1u);
 }
 
 }  // namespace

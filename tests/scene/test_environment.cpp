@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 #include "host/core/angles.h"
 #include "host/core/error.h"
@@ -154,6 +156,25 @@ TEST(Environment, LampsOfTheSkyAreInTheMap) {
   ASSERT_EQ(cones.size(), 1u);
   EXPECT_NEAR(axisOf(cones[0]).x, std::sqrt(0.5), 1e-2);
   EXPECT_NEAR(cones[0].direction.w, 0.2, 1e-2);
+}
+
+TEST(Environment, TinyNegativesCountAsNothing) {
+  Image map(4, 2, 3);
+  std::fill(map.pixels.begin(), map.pixels.end(), 1.0f);
+  Image clean = map;
+  EXPECT_EQ(clampTinyNegatives(clean), "");
+  map.at(3, 1)[1] = -4e-7f;
+  map.at(0, 0)[0] = -2e-3f;
+  const std::string note = clampTinyNegatives(map);
+  expectMessage(note, {"2 values", "-0.002"});
+  EXPECT_EQ(map.at(3, 1)[1], 0.0f);
+  EXPECT_FALSE(cutEnvironment(map, {}).empty());
+  map.at(2, 1)[1] = -0.5f;  // no ringing
+  EXPECT_EQ(clampTinyNegatives(map), "");
+  expectMessage(errorOf([&] { cutEnvironment(map, {}); }), {"pixel (2, 1)", "-0.5"});
+  map.at(2, 1)[1] = std::numeric_limits<float>::infinity();
+  EXPECT_EQ(clampTinyNegatives(map), "");
+  expectMessage(errorOf([&] { cutEnvironment(map, {}); }), {"pixel (2, 1)", "inf"});
 }
 
 }  // namespace

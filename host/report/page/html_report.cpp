@@ -79,7 +79,6 @@ std::string recordsJson(std::span<const Record> records) {
 
 std::string headerHtml(const Results& results, std::span<const TableSpec> known,
                        const std::vector<std::string>& tables, const std::string& source) {
-  const std::string link = escapeHtml(source);
   std::string html = fmt::format(
       "<header>\n<h1>glintmark</h1>\n<p class=\"lead\">What micro-detail shading costs on "
       "<b>{}</b>, "
@@ -89,7 +88,7 @@ std::string headerHtml(const Results& results, std::span<const TableSpec> known,
       "<span class=\"bad\">!</span> failed the check of its run.</p>\n</header>\n<nav "
       "aria-label=\"Sections\">",
       escapeHtml(results.run.device), headlinesHtml(known, results.records), factsHtml(results.run),
-      results.records.size(), link, link);
+      results.records.size(), escapeHtml(linkTo(source)), escapeHtml(source));
   for (const std::string& table : tables)
     html += fmt::format("<a href=\"#{}\">{}</a>", escapeHtml(table),
                         escapeHtml(tableOf(known, table).title));

@@ -12,6 +12,10 @@ namespace glintmark {
 /// `text` with &, <, > and quotes as HTML writes them.
 std::string escapeHtml(std::string_view text);
 
+/// A relative path as the address of a link: what is not plain in a URI is written %XX, and a first
+/// step with a colon is no scheme. [RFC 3986]
+std::string linkTo(std::string_view path);
+
 /// RFC 4648.
 std::string base64(std::string_view bytes);
 

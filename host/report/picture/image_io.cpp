@@ -99,21 +99,4 @@ void writePng(const Image& image, const std::filesystem::path& path) {
   encodeFile("png", spec, OIIO::TypeDesc::UINT8, bytes.data(), path);
 }
 
-Image readImage(const std::filesystem::path& path) {
-  // Colours that alpha has not multiplied stay as they are: normals and heights keep their values.
-  OIIO::ImageSpec hints;
-  hints.attribute("oiio:UnassociatedAlpha", 1);
-  auto input = OIIO::ImageInput::open(path.string(), &hints);
-  if (!input) {
-    throw Error(fmt::format("cannot read image {}: {}", path.string(), OIIO::geterror()));
-  }
-  const OIIO::ImageSpec& spec = input->spec();
-  Image image(spec.width, spec.height, spec.nchannels);
-  image.channel_names = spec.channelnames;
-  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.pixels.data())) {
-    throw Error(fmt::format("cannot read image {}: {}", path.string(), input->geterror()));
-  }
-  return image;
-}
-
 }  // namespace glintmark

@@ -1,6 +1,9 @@
-// Image files. With text_coverage.cpp the only code that includes OpenImageIO.
+// Image files. image_io.cpp, read_image.cpp and text_coverage.cpp are the only code that includes
+// OpenImageIO.
 #pragma once
 #include <filesystem>
+#include <string>
+#include <string_view>
 
 #include "host/core/image.h"
 
@@ -15,9 +18,24 @@ void writeExr(const Image& image, const std::filesystem::path& path);
 /// clamped to [0, 1] and rounded; NaN becomes 0. Throws Error like writeExr.
 void writePng(const Image& image, const std::filesystem::path& path);
 
-/// Reads an EXR, HDR or PNG with its channel names. Values come as they are stored, PNG scaled to
-/// [0, 1] and still sRGB encoded. Throws Error naming the file.
+/// Reads all channels of an image file's first part with their names. Values come as they are
+/// stored, whole numbers scaled to [0, 1] and still sRGB encoded; the picture is the display
+/// window, turned as its orientation says. Throws Error naming the file: what a reader only warns
+/// of is an error, sizes are checked before memory is taken.
 Image readImage(const std::filesystem::path& path);
+
+/// Red, green and blue of a picture; a grey one has three alike. `FILE#LAYER` names a layer or a
+/// part of an EXR file; without a name it is the one that colours are in. Throws Error like
+/// readImage, and listing the layers if none or several may be meant.
+Image readColours(const std::filesystem::path& path);
+
+/// What a normal map is made of: three channels, two of normals, or one of heights, without alpha.
+/// Of several layers it is the one whose name or whose unit vectors say so. Throws Error like
+/// readColours.
+Image readNormals(const std::filesystem::path& path);
+
+/// The same of a file in memory; `name` is for messages.
+Image decodeNormals(std::string_view bytes, const std::string& name);
 
 /// The lower-case extension of `path` if it is one of `.exr` and `.png`; throws Error otherwise.
 std::string requireImageExtension(const std::filesystem::path& path);

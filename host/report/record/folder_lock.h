@@ -1,6 +1,7 @@
 // One run at a time in a results folder.
 #pragma once
 #include <filesystem>
+#include <string>
 
 namespace glintmark {
 
@@ -11,6 +12,8 @@ class FolderLock {
   /// Throws Error naming the process that holds the lock, or if the file cannot be made. On file
   /// systems without locks it does nothing.
   explicit FolderLock(const std::filesystem::path& folder);
+  /// The same with a lock file of another name; `what` is locked, `advice` is what else to do.
+  FolderLock(const std::filesystem::path& file, const std::string& what, const std::string& advice);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
@@ -19,9 +22,5 @@ class FolderLock {
   std::filesystem::path file_;
   int descriptor_ = -1;
 };
-
-/// Removes the temporary files of AtomicFile that processes which are no more have left in a
-/// folder.
-void removeAbandonedFiles(const std::filesystem::path& folder);
 
 }  // namespace glintmark

@@ -23,6 +23,7 @@ struct Record {
 
 struct RunInfo {
   std::string date, git, command, cpu, device, driver, platform;
+  std::string inputs{};  // hash of the kernels, tables, scenes and meshes; empty: not taken
   int cores = 0;
   int width = 0;  // lanes
   double peak_gflops = 0, peak_gbs = 0;

@@ -12,6 +12,7 @@
 
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
+#include "host/core/fnv1a.h"
 #include "host/report/record/records.h"
 
 namespace glintmark {
@@ -27,14 +28,44 @@ void requireSameSetup(const RunInfo& old_run, const RunInfo& run, const std::str
   };
   require("program version", old_run.git, run.git);
   require("device", old_run.device, run.device);
+  require("driver", old_run.driver, run.driver);
+  require("kernels, tables, scenes and meshes", old_run.inputs, run.inputs);
   require("width", std::to_string(old_run.width), std::to_string(run.width));
+}
+
+// The last field of a line: "sum", of all that stands before it.
+constexpr std::string_view kChecksumStart = ",\"sum\":\"";
+constexpr std::size_t kChecksumBytes = kChecksumStart.size() + 16 + 2;
+
+// Takes the checksum off a line; false if it has none. Throws Error if it is that of another line.
+bool takeChecksum(std::string& line, const std::string& source) {
+  if (line.size() < kChecksumBytes) return false;
+  const std::string_view end = std::string_view(line).substr(line.size() - kChecksumBytes);
+  if (!end.starts_with(kChecksumStart) || !end.ends_with("\"}")) return false;
+  const std::string wanted(end.substr(kChecksumStart.size(), 16));
+  line.resize(line.size() - kChecksumBytes);
+  if (fmt::format("{:016x}", fnv1a(line)) != wanted)
+    throw Error(
+        fmt::format("{} is damaged: its checksum is another's; run without --resume to start "
+                    "over",
+                    source));
+  line += '}';
+  return true;
 }
 
 }  // namespace
 
+std::string withChecksum(std::string line) {
+  line.pop_back();
+  return line + fmt::format("{}{:016x}\"}}", kChecksumStart, fnv1a(line));
+}
+
 RecordLog::RecordLog(std::filesystem::path path, bool keep) : path_(std::move(path)) {
   const int start = keep ? 0 : O_TRUNC;
-  descriptor_ = open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | start, 0644);
+  // A pipe would be waited for, and what a symbolic link names would be emptied.
+  descriptor_ =
+      open(path_.c_str(),
+           O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | start, 0644);
   if (descriptor_ < 0) {
     throw Error(fmt::format("cannot write {}: {}", path_.string(), std::strerror(errno)));
   }
@@ -52,13 +83,18 @@ RecordLog::~RecordLog() {
 LogContent parseLog(const std::string& text, const std::string& source) {
   LogContent content;
   std::vector<Record> batch;
+  bool all_have = false;  // checksums; logs of earlier versions have none
   std::size_t begin = 0;
   for (int line_number = 1; begin < text.size(); ++line_number) {
     const std::size_t end = text.find('\n', begin);
     if (end == std::string::npos) break;
-    const std::string line = text.substr(begin, end - begin);
+    std::string line = text.substr(begin, end - begin);
     const std::string line_source = fmt::format("{} line {}", source, line_number);
     begin = end + 1;
+    const bool has_checksum = takeChecksum(line, line_source);
+    if (line_number == 1) all_have = has_checksum;
+    if (all_have && !has_checksum)
+      throw Error(fmt::format("{} is damaged: its checksum is missing", line_source));
     if (line_number == 1) {
       content.run = parseHeaderLine(line, line_source);
     } else {
@@ -75,13 +111,16 @@ LogContent parseLog(const std::string& text, const std::string& source) {
 
 RecordLog RecordLog::create(const std::filesystem::path& path, const RunInfo& run) {
   std::error_code error;
+  if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))
+    throw Error(
+        fmt::format("{} is no regular file, expected a log or none; remove it", path.string()));
   if (std::filesystem::is_regular_file(path, error)) {
     std::filesystem::path old = path;
     std::filesystem::rename(path, old += ".old", error);
     if (error) throw Error(fmt::format("cannot rename {}: {}", path.string(), error.message()));
   }
   RecordLog log(path, false);
-  writeAll(log.descriptor_, headerLine(run) + "\n", path);
+  writeAll(log.descriptor_, withChecksum(headerLine(run)) + "\n", path);
   return log;
 }
 
@@ -102,7 +141,7 @@ RecordLog RecordLog::resume(const std::filesystem::path& path, const RunInfo& ru
 void RecordLog::append(std::span<const Record> records) {
   std::string lines;
   for (std::size_t i = 0; i < records.size(); ++i)
-    lines += recordLine(records[i], records.size() - 1 - i) + "\n";
+    lines += withChecksum(recordLine(records[i], records.size() - 1 - i)) + "\n";
   const off_t size_before = lseek(descriptor_, 0, SEEK_END);
   try {
     writeAll(descriptor_, lines, path_);

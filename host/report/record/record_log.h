@@ -20,16 +20,20 @@ struct LogContent {
 };
 
 /// Reads the text of a log. The end of a log may be cut off, in the middle of a line or of a batch;
-/// that batch is left out. Throws Error for another schema or damage before the last line.
+/// that batch is left out. Throws Error for another schema, damage before the last line, and a line
+/// that is not as it was written.
 LogContent parseLog(const std::string& text, const std::string& source);
+
+/// A line of a log, which is a JSON object, with a field "sum" at its end: a hash of all before it.
+std::string withChecksum(std::string line);
 
 class RecordLog {
  public:
   /// Starts an empty log. An old one is kept as `<path>.old`, in place of what had that name.
   static RecordLog create(const std::filesystem::path& path, const RunInfo& run);
   /// Opens a log to carry on with it. A batch that was cut off is dropped. If there is no log,
-  /// starts one. Throws Error if the log is of another schema, device, width or program version, or
-  /// if a line before the last is damaged.
+  /// starts one. Throws Error if the log is of another schema, device, driver, width, program
+  /// version or other inputs, or if a line before the last is damaged.
   static RecordLog resume(const std::filesystem::path& path, const RunInfo& run);
 
   ~RecordLog();

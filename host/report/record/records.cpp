@@ -14,12 +14,12 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json runToJson(const RunInfo& run) {
-  return {{"date", run.date},        {"git", run.git},
-          {"command", run.command},  {"cpu", run.cpu},
-          {"cores", run.cores},      {"device", run.device},
-          {"driver", run.driver},    {"platform", run.platform},
-          {"width", run.width},      {"peak_gflops", run.peak_gflops},
-          {"peak_gbs", run.peak_gbs}};
+  return {{"date", run.date},         {"git", run.git},
+          {"command", run.command},   {"cpu", run.cpu},
+          {"cores", run.cores},       {"device", run.device},
+          {"driver", run.driver},     {"platform", run.platform},
+          {"width", run.width},       {"peak_gflops", run.peak_gflops},
+          {"peak_gbs", run.peak_gbs}, {"inputs", run.inputs}};
 }
 
 // A whole number that T can hold; the library casts whatever number it finds.
@@ -44,6 +44,7 @@ RunInfo runFromJson(const Json& json) {
   run.width = wholeNumber<int>(json, "width");
   json.at("peak_gflops").get_to(run.peak_gflops);
   json.at("peak_gbs").get_to(run.peak_gbs);
+  run.inputs = json.value("inputs", "");
   return run;
 }
 

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "glintmark_git_version.h"
+#include "host/core/free_memory.h"
 
 namespace glintmark {
 namespace {
@@ -45,8 +46,7 @@ RunInfo describeHost(std::span<const char* const> command_line) {
 }
 
 unsigned long long availableMemoryBytes() {
-  const std::string kilobytes = procValue("/proc/meminfo", "MemAvailable");
-  return kilobytes.empty() ? 0 : std::stoull(kilobytes) * 1024;
+  return freeMemoryBytes();
 }
 
 }  // namespace glintmark

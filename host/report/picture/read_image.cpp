@@ -1,0 +1,289 @@
+// What image files hold, by OpenImageIO.
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "host/core/atomic_file.h"
+#include "host/core/error.h"
+#include "host/core/free_memory.h"
+#include "host/report/picture/image_io.h"
+#include "host/report/picture/image_layers.h"
+
+namespace glintmark {
+namespace {
+
+// Pixels per side that are read at all: more than any map or sky has.
+constexpr int kMaxSide_px = 32768;
+// Share of texels that must be unit normals for a layer to count as a map of them.
+constexpr double kNormalShare = 0.95;
+constexpr float kUnitDeviation = 0.2f;
+
+std::string oneLine(std::string text) {
+  std::ranges::replace(text, '\n', ' ');
+  while (!text.empty() && text.back() == ' ') text.pop_back();
+  return text;
+}
+
+/// An image file, or one in memory, open to be read.
+class ImageSource {
+ public:
+  explicit ImageSource(const std::filesystem::path& file) : name_(file.string()) {
+    { const InputFile is_regular(file); }
+    open(name_, nullptr);
+  }
+  ImageSource(std::string_view bytes, const std::string& name)
+      : name_(name), memory_(std::in_place, bytes.data(), bytes.size()) {
+    open(bytes.starts_with("\xFF\xD8")  ? "jpeg"
+         : bytes.starts_with("\x89PNG") ? "png"
+                                        : "openexr",
+         &*memory_);
+  }
+
+  [[noreturn]] void fail(const std::string& reason) const {
+    throw Error(fmt::format("cannot read image {}: {}", name_, oneLine(reason)));
+  }
+
+  /// All parts of files that have parts; of pages, frames and smaller copies only the first.
+  std::vector<ImageLayer> layers() {
+    std::vector<ImageLayer> all;
+    const bool has_parts = std::string_view(input_->format_name()) == "openexr";
+    for (int part = 0; part == 0 || (has_parts && input_->seek_subimage(part, 0)); ++part) {
+      const OIIO::ImageSpec spec = input_->spec(part, 0);
+      addLayers(all, part, std::string(spec.get_string_attribute("oiio:subimagename")),
+                spec.channelnames);
+    }
+    OIIO::geterror();
+    input_->geterror();
+    return all;
+  }
+
+  /// Channels [begin, end) of a part as they lie in the file, then turned as a viewer shows them.
+  Image read(int part, int begin, int end) {
+    const OIIO::ImageSpec spec = input_->spec(part, 0);
+    const int channels = end - begin;
+    checkSize(spec, channels);
+    Image image(spec.width, spec.height, channels);
+    image.channel_names.assign(spec.channelnames.begin() + begin, spec.channelnames.begin() + end);
+    if (spec.format == OIIO::TypeDesc::UINT8) image.step = 1.0f / 255;
+    if (spec.format == OIIO::TypeDesc::UINT16) image.step = 1.0f / 65535;
+    const bool read =
+        input_->read_image(part, 0, begin, end, OIIO::TypeDesc::FLOAT, image.pixels.data());
+    // Some readers go on after what they only warn of, with pixels that are not the file's.
+    if (!read || input_->has_error()) fail(input_->geterror());
+    return turned(framed(std::move(image), spec), spec.get_int_attribute("Orientation", 1));
+  }
+
+  int channelCount(int part) { return input_->spec(part, 0).nchannels; }
+
+ private:
+  void open(const std::string& file, OIIO::Filesystem::IOMemReader* memory) {
+    OIIO::geterror();
+    // Colours that alpha has not multiplied stay as they are: normals and heights keep their
+    // values.
+    OIIO::ImageSpec hints;
+    hints.attribute("oiio:UnassociatedAlpha", 1);
+    if (memory == nullptr) {
+      input_ = OIIO::ImageInput::open(file, &hints);
+    } else {
+      input_ = OIIO::ImageInput::create(file);
+      OIIO::ImageSpec found;
+      if (input_ && !(input_->set_ioproxy(memory) && input_->open("memory." + file, found, hints)))
+        fail(input_->geterror());
+    }
+    if (!input_) fail(OIIO::geterror());
+    if (input_->spec().depth > 1) fail("it has depth, expected a flat picture");
+    if (input_->spec().deep) fail("it holds deep pixels, expected flat ones");
+  }
+
+  void checkSize(const OIIO::ImageSpec& spec, int channels) const {
+    const std::int64_t width = std::max(spec.width, spec.full_width);
+    const std::int64_t height = std::max(spec.height, spec.full_height);
+    if (spec.width < 1 || spec.height < 1 || width > kMaxSide_px || height > kMaxSide_px)
+      fail(fmt::format("it has {}x{} pixels, expected 1 to {} each way", width, height,
+                       kMaxSide_px));
+    // The pixels, and what the reader holds of them.
+    requireMemory(static_cast<std::uint64_t>(width * height * channels) * (sizeof(float) + 4),
+                  fmt::format("image {} of {}x{} pixels", name_, width, height));
+  }
+
+  /// The display window where the stored pixels cover another one; black where there are none.
+  Image framed(Image image, const OIIO::ImageSpec& spec) const {
+    const bool whole = spec.x == spec.full_x && spec.y == spec.full_y &&
+                       spec.width == spec.full_width && spec.height == spec.full_height;
+    if (whole || spec.full_width < 1 || spec.full_height < 1) return image;
+    Image frame(spec.full_width, spec.full_height, image.channels);
+    frame.channel_names = image.channel_names;
+    frame.step = image.step;
+    for (int y = 0; y < frame.height; ++y)
+      for (int x = 0; x < frame.width; ++x) {
+        const int from_x = x + spec.full_x - spec.x, from_y = y + spec.full_y - spec.y;
+        if (from_x < 0 || from_y < 0 || from_x >= image.width || from_y >= image.height) continue;
+        std::ranges::copy(image.at(from_x, from_y), frame.at(x, y).begin());
+      }
+    return frame;
+  }
+
+  /// By the eight orientations of TIFF and Exif.
+  static Image turned(Image image, int orientation) {
+    if (orientation < 2 || orientation > 8) return image;
+    const bool swaps = orientation > 4;
+    Image out(swaps ? image.height : image.width, swaps ? image.width : image.height,
+              image.channels);
+    out.channel_names = image.channel_names;
+    out.step = image.step;
+    for (int y = 0; y < out.height; ++y)
+      for (int x = 0; x < out.width; ++x) {
+        int u = swaps ? y : x, v = swaps ? x : y;
+        if (orientation == 2 || orientation == 3 || orientation == 7 || orientation == 8)
+          u = image.width - 1 - u;
+        if (orientation == 3 || orientation == 4 || orientation == 6 || orientation == 7)
+          v = image.height - 1 - v;
+        std::ranges::copy(image.at(u, v), out.at(x, y).begin());
+      }
+    return out;
+  }
+
+  std::string name_;
+  std::optional<OIIO::Filesystem::IOMemReader> memory_;
+  std::unique_ptr<OIIO::ImageInput> input_;
+};
+
+bool isLuminanceChroma(const ImageLayer& layer, const std::vector<int>& wanted) {
+  return wanted.size() == 3 && (layer.names[wanted[1]] == "RY" || layer.names[wanted[1]] == "ry");
+}
+
+/// Y, (R - Y) / Y and (B - Y) / Y as red, green and blue. [OpenEXR, "Technical Introduction"]
+Image toColours(const Image& all, const ImageLayer& layer, const std::vector<int>& wanted,
+                int begin) {
+  constexpr float kRed = 0.2126f, kGreen = 0.7152f, kBlue = 0.0722f;
+  Image rgb(all.width, all.height, 3);
+  for (int y = 0; y < rgb.height; ++y)
+    for (int x = 0; x < rgb.width; ++x) {
+      const auto value = [&](int i) { return all.at(x, y)[layer.channels[wanted[i]] - begin]; };
+      const float luminance = value(0), red = (value(1) + 1) * luminance,
+                  blue = (value(2) + 1) * luminance;
+      const auto out = rgb.at(x, y);
+      out[0] = red;
+      out[1] = (luminance - kRed * red - kBlue * blue) / kGreen;
+      out[2] = blue;
+    }
+  rgb.channel_names = {"R", "G", "B"};
+  return rgb;
+}
+
+/// The channels of a layer that its use wants.
+Image readLayer(ImageSource& source, const ImageLayer& layer, ImageUse use) {
+  const std::vector<int> wanted = channelsFor(layer, use);
+  int begin = layer.channels[wanted[0]], end = begin + 1;
+  for (const int i : wanted) {
+    begin = std::min(begin, layer.channels[i]);
+    end = std::max(end, layer.channels[i] + 1);
+  }
+  Image all = source.read(layer.part, begin, end);
+  if (isLuminanceChroma(layer, wanted)) return toColours(all, layer, wanted, begin);
+  bool in_order = all.channels == static_cast<int>(wanted.size());
+  for (std::size_t c = 0; c < wanted.size(); ++c)
+    in_order = in_order && layer.channels[wanted[c]] == begin + static_cast<int>(c);
+  if (in_order) return all;
+  Image image(all.width, all.height, static_cast<int>(wanted.size()));
+  image.step = all.step;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      for (std::size_t c = 0; c < wanted.size(); ++c)
+        image.at(x, y)[c] = all.at(x, y)[layer.channels[wanted[c]] - begin];
+  for (const int i : wanted) image.channel_names.push_back(layer.names[i]);
+  return image;
+}
+
+bool holdsNormals(const Image& image) {
+  if (image.channels < 3) return false;
+  std::size_t stored = 0, coded = 0;
+  const std::size_t texels = image.pixels.size() / static_cast<std::size_t>(image.channels);
+  const auto fits = [](float x, float y, float z) {
+    return z >= 0 && std::abs(std::hypot(x, y, z) - 1) < kUnitDeviation;
+  };
+  for (std::size_t i = 0; i < texels; ++i) {
+    const float* n = image.pixels.data() + i * static_cast<std::size_t>(image.channels);
+    stored += fits(n[0], n[1], n[2]);
+    coded += fits(2 * n[0] - 1, 2 * n[1] - 1, 2 * n[2] - 1);
+  }
+  return static_cast<double>(std::max(stored, coded)) >= kNormalShare * static_cast<double>(texels);
+}
+
+std::string listOf(const std::vector<ImageLayer>& layers) {
+  std::vector<std::string> names;
+  for (const ImageLayer& layer : layers) {
+    const std::string name = layer.name().empty() ? "(no name)" : layer.name();
+    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+Image readFor(ImageSource& source, ImageUse use, const std::string& wanted) {
+  const std::vector<ImageLayer> layers = source.layers();
+  const std::vector<const ImageLayer*> found = candidatesFor(layers, use, wanted);
+  if (found.empty())
+    source.fail(wanted.empty() ? std::string("it has no channels to be used")
+                               : fmt::format("it has no layer '{}', its layers are {}", wanted,
+                                             listOf(layers)));
+  if (found.size() == 1) return readLayer(source, *found[0], use);
+  // Several may be meant: the one that holds unit normals, if that is what is looked for.
+  std::vector<const ImageLayer*> normals;
+  for (const ImageLayer* layer : found)
+    if (use == ImageUse::kNormals && holdsNormals(readLayer(source, *layer, use)))
+      normals.push_back(layer);
+  if (normals.size() == 1) return readLayer(source, *normals[0], use);
+  source.fail(
+      fmt::format("which of its layers is meant is not clear; write #NAME after the file's name, "
+                  "its layers are {}",
+                  listOf(layers)));
+}
+
+/// A path with the layer that follows a '#', unless a file has that very name.
+std::pair<std::filesystem::path, std::string> splitLayer(const std::filesystem::path& path) {
+  const std::string text = path.string();
+  const std::size_t hash = text.rfind('#');
+  std::error_code error;
+  if (hash == std::string::npos || std::filesystem::exists(path, error)) return {path, ""};
+  return {text.substr(0, hash), text.substr(hash + 1)};
+}
+
+Image readFileFor(const std::filesystem::path& path, ImageUse use) {
+  const auto [file, layer] = splitLayer(path);
+  ImageSource source(file);
+  return readFor(source, use, layer);
+}
+
+}  // namespace
+
+Image readImage(const std::filesystem::path& path) {
+  ImageSource source(path);
+  return source.read(0, 0, source.channelCount(0));
+}
+
+Image readColours(const std::filesystem::path& path) {
+  Image image = readFileFor(path, ImageUse::kColour);
+  if (image.channels >= 3) return image;
+  Image rgb(image.width, image.height, 3);
+  for (std::size_t i = 0; i < rgb.pixels.size(); ++i)
+    rgb.pixels[i] = image.pixels[i / 3 * static_cast<std::size_t>(image.channels)];
+  rgb.step = image.step;
+  return rgb;
+}
+
+Image readNormals(const std::filesystem::path& path) {
+  return readFileFor(path, ImageUse::kNormals);
+}
+
+Image decodeNormals(std::string_view bytes, const std::string& name) {
+  ImageSource source(bytes, name);
+  return readFor(source, ImageUse::kNormals, "");
+}
+
+}  // namespace glintmark

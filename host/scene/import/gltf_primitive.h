@@ -1,0 +1,44 @@
+// The primitives of glTF meshes as triangles of a mesh.
+#pragma once
+#include <glm/glm.hpp>
+#include <optional>
+#include <vector>
+
+#include "host/scene/import/gltf_accessor.h"
+#include "host/scene/import/gltf_materials.h"
+#include "host/scene/import/mesh_source.h"
+
+namespace glintmark {
+
+class GltfPrimitives {
+ public:
+  /// Both must live as long.
+  GltfPrimitives(GltfDocument& document, MeshSource& out) : document_(document), out_(out) {}
+
+  /// The file's materials, whose parts `out` already has.
+  void useMaterials(const GltfDocument::Json& materials);
+  /// Appends the triangles of a primitive; points and lines are left out. `weights` are those of
+  /// its morph targets, null for none. Throws Error.
+  void add(const GltfDocument::Json& primitive, const glm::dmat4& transform,
+           const GltfDocument::Json* weights);
+
+ private:
+  using Json = GltfDocument::Json;
+
+  std::uint32_t partOf(const Json& primitive, GltfUv& uv);
+  void addVertices(const Json& attributes, const GltfUv& uv);
+  void morph(const Json& primitive, const Json& weights);
+  void addTriangles(const Json& primitive, std::uint32_t part, bool mirrored);
+  void flatten(std::size_t first_triangle);
+
+  GltfDocument& document_;
+  MeshSource& out_;
+  std::vector<GltfUv> uv_of_material_;
+  std::vector<std::string> keys_;  // of materials that are named
+  // Of the primitive at hand, before its transform.
+  std::vector<glm::dvec3> positions_;
+  std::vector<glm::dvec3> normals_;
+  std::size_t first_vertex_ = 0;
+};
+
+}  // namespace glintmark

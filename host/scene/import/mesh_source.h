@@ -1,0 +1,46 @@
+// A mesh as a file holds it, before it is made fit to be drawn.
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "host/scene/part_mesh.h"
+
+namespace glintmark {
+
+/// Stands for the uv of a vertex that has none.
+inline constexpr glm::dvec2 kNoUv{std::numeric_limits<double>::max()};
+
+/// Arrays per vertex have one length. Positions are doubles, since files place meshes far from the
+/// origin. uvs lie as maps do: row 0 of a picture at v = 0.
+struct MeshSource {
+  std::vector<glm::dvec3> positions;
+  std::vector<glm::vec3> normals;  // any length; 0: to be made from the triangles round the vertex
+  std::vector<glm::dvec2> uvs;
+  std::vector<std::uint32_t> smoothing;  // empty, or per vertex: normals are made within a group
+  std::vector<glm::uvec3> triangles;     // counter-clockwise from the front
+  std::vector<std::uint32_t> triangle_parts;
+  std::vector<std::string> parts;
+  std::vector<std::string> notes;
+  std::vector<FileMaterial> materials;  // empty, or one per part
+
+  /// Index of the part of that name, new or known.
+  std::uint32_t part(const std::string& name) {
+    for (std::size_t i = parts.size(); i-- > 0;)
+      if (parts[i] == name) return static_cast<std::uint32_t>(i);
+    parts.push_back(name);
+    return static_cast<std::uint32_t>(parts.size() - 1);
+  }
+};
+
+/// Makes room for `count` more elements; room at least doubles, so that many calls stay linear.
+template <typename T>
+void reserveMore(std::vector<T>& values, std::size_t count) {
+  const std::size_t needed = values.size() + count;
+  if (needed > values.capacity()) values.reserve(std::max(needed, 2 * values.capacity()));
+}
+
+}  // namespace glintmark
