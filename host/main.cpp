@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
     return error.code();
   } catch (const glintmark::Interrupted& interrupted) {
     std::fprintf(stderr, "glintmark: %s\n", interrupted.what());
-    return glintmark::kExitInterrupted;
+    return glintmark::InterruptGuard::exitCode();
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "glintmark: out of memory; choose a smaller --size or scene\n");
     return glintmark::kExitBadInput;

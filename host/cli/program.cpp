@@ -26,6 +26,9 @@ void addCommonOptions(Command app, CommonOptions& common) {
       .typeName("I|NAME");
   app.option("--width", common.lanes, "Lanes per work-item: 1, 4, 8 or 16 (default: device's)")
       .typeName("W");
+  app.option("--timer", common.timer,
+             "Clock of kernels: auto (the device's while it makes sense), device or wall")
+      .typeName("CLOCK");
   app.option("--threads", common.threads, "Rasterizer threads (default: all cores)")
       .typeName("N")
       .nonNegative();

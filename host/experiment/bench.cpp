@@ -79,7 +79,12 @@ int runBench(const Session& session, const std::vector<std::string>& names,
     startTrace();
   }
   BenchRun run(session, options);
-  for (const BenchTable& table : tables) table.measure(run);
+  try {
+    for (const BenchTable& table : tables) table.measure(run);
+  } catch (const Interrupted&) {
+    if (!options.trace.empty()) writeTrace(options.trace, run.info());
+    throw;
+  }
   std::vector<std::string> texts;
   for (const BenchTable& table : tables) texts.push_back(table.text(run));
   if (!options.trace.empty()) writeTrace(options.trace, run.info());

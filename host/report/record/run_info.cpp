@@ -5,9 +5,10 @@
 
 #include <ctime>
 #include <fstream>
-#include <thread>
 
 #include "glintmark_git_version.h"
+#include "host/core/free_memory.h"
+#include "host/report/record/machine.h"
 
 namespace glintmark {
 namespace {
@@ -40,13 +41,14 @@ RunInfo describeHost(std::span<const char* const> command_line) {
     run.command += word;
   }
   run.cpu = procValue("/proc/cpuinfo", "model name");
-  run.cores = static_cast<int>(std::thread::hardware_concurrency());
+  run.cores = usableCores();
+  run.memory_bytes = availableMemoryBytes();
+  run.begin = machineState();
   return run;
 }
 
 unsigned long long availableMemoryBytes() {
-  const std::string kilobytes = procValue("/proc/meminfo", "MemAvailable");
-  return kilobytes.empty() ? 0 : std::stoull(kilobytes) * 1024;
+  return freeMemoryBytes();
 }
 
 }  // namespace glintmark
