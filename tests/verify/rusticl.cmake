@@ -1,14 +1,16 @@
 # Runs the checks of PROGRAM that ONLY matches on Mesa's rusticl, on llvmpipe and alone. Says
 # "skipped: …" where the system has none.
-#   cmake -D PROGRAM=glintmark -D ONLY=regex -D FOLDER=scratch -P rusticl.cmake
-file(GLOB icds /etc/OpenCL/vendors/*rusticl*.icd)
-if(NOT icds)
+#   cmake -D PROGRAM=glintmark -D ONLY=regex -D FOLDER=scratch [-D ICDS=files] -P rusticl.cmake
+if(NOT ICDS)
+  file(GLOB ICDS /etc/OpenCL/vendors/*rusticl*.icd)
+endif()
+if(NOT ICDS)
   message(STATUS "skipped: rusticl (mesa-opencl-icd) is not installed")
   return()
 endif()
 # The loader takes all that a folder holds.
 file(REMOVE_RECURSE ${FOLDER})
-file(COPY ${icds} DESTINATION ${FOLDER})
+file(COPY ${ICDS} DESTINATION ${FOLDER})
 set(ENV{OCL_ICD_VENDORS} ${FOLDER})
 set(ENV{RUSTICL_ENABLE} llvmpipe)
 execute_process(COMMAND ${PROGRAM} info RESULT_VARIABLE exit_code OUTPUT_VARIABLE output
