@@ -30,6 +30,17 @@ std::map<std::string, std::string> measurementKey(const CommonOptions& common,
   return key;
 }
 
+// "first; second" as two lines.
+std::string onLines(const std::string& reasons) {
+  std::string text;
+  for (std::size_t begin = 0; begin < reasons.size();) {
+    const std::size_t end = std::min(reasons.find("; ", begin), reasons.size());
+    text += "  " + reasons.substr(begin, end - begin) + "\n";
+    begin = end + 2;
+  }
+  return text;
+}
+
 // The folder, once it is known that the results can be written.
 std::filesystem::path checkedFolder(const BenchOptions& options) {
   if (options.reps < 1 || options.reps > 10000)
@@ -167,7 +178,7 @@ int BenchRun::finish(const std::string& tables) {
   std::string text = tables;
   if (std::ranges::count(records_, "wall", &Record::timer) > 0)
     text += "\nKernels are timed by the wall clock.\n";
-  if (!info_.busy.empty()) text += fmt::format("\nThe machine was busy: {}.\n", info_.busy);
+  if (!info_.busy.empty()) text += "\nThe machine was busy:\n" + onLines(info_.busy);
   const std::string json = toJson({info_, records_}), csv = toCsv(records_);
   try {
     writeFile(folder_ / "results.json", json);
