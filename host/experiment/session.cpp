@@ -60,15 +60,16 @@ ImageSize parseSize(const std::string& text) {
 }
 
 void prepareDrivers(const CommonOptions& common) {
+  const int lanes = common.lanes;
+  if (lanes != 0 && lanes != 1 && lanes != 4 && lanes != 8 && lanes != 16) {
+    throw Error(fmt::format("--width {} is not a lane count; use 1, 4, 8 or 16", lanes));
+  }
+  parseTimer(common.timer);
   const std::string note = prepareDriverCache();
   if (!note.empty() && !common.quiet) fmt::print(stderr, "note: {}\n", note);
 }
 
 Device openDevice(const CommonOptions& common) {
-  const int lanes = common.lanes;
-  if (lanes != 0 && lanes != 1 && lanes != 4 && lanes != 8 && lanes != 16) {
-    throw Error(fmt::format("--width {} is not a lane count; use 1, 4, 8 or 16", lanes));
-  }
   prepareDrivers(common);
   Device device(common.device, parseTimer(common.timer));
   if (!common.quiet)

@@ -33,8 +33,9 @@ struct ImageSize {
 /// memory than there is.
 ImageSize parseSize(const std::string& text);
 
-/// Gives drivers what they need of the system, once, and says so on stderr unless quiet. For what
-/// comes before openDevice(), which does it too.
+/// Checks the options that choose how kernels run, gives drivers what they need of the system,
+/// once, and says so on stderr unless quiet. For what comes before openDevice(), which does it too.
+/// Throws Error like openDevice().
 void prepareDrivers(const CommonOptions& common);
 
 /// Opens the chosen device. Unless quiet, it says on stderr if its clock turns out to be of no use.
