@@ -33,7 +33,7 @@ int main(int argc, char** argv) {
     return error.code();
   } catch (const glintmark::Interrupted& interrupted) {
     std::fprintf(stderr, "glintmark: %s\n", interrupted.what());
-    return glintmark::kExitInterrupted;
+    return glintmark::InterruptGuard::exitCode();
   } catch (const std::system_error& error) {
     if (std::ferror(stdout)) return afterOutput(glintmark::kExitBadInput);
     std::fprintf(stderr, "glintmark: internal error: %s\n", error.what());

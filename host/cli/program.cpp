@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "host/cli/command_line.h"
+#include "host/report/record/machine.h"
 #include "host/report/record/run_info.h"
 
 namespace glintmark {
@@ -26,7 +27,10 @@ void addCommonOptions(Command app, CommonOptions& common) {
       .typeName("I|NAME");
   app.option("--width", common.lanes, "Lanes per work-item: 1, 4, 8 or 16 (default: device's)")
       .typeName("W");
-  app.option("--threads", common.threads, "Rasterizer threads (default: all cores)")
+  app.option("--timer", common.timer,
+             "Clock of kernels: auto (the device's while it makes sense), device or wall")
+      .typeName("CLOCK");
+  app.option("--threads", common.threads, "Rasterizer threads (default: all cores that it may use)")
       .typeName("N")
       .nonNegative();
   app.option("--set", common.overrides, "Changes a value of the scene file; repeatable")
@@ -64,6 +68,8 @@ int runProgram(int argc, const char* const* argv) {
   app.shareOptions();
 
   if (const std::optional<int> done = parser.parse(argc, argv)) return *done;
+  // Threads beyond a control group's quota would only wait for each other.
+  if (line.common.threads == 0) line.common.threads = usableCores();
   return line.action();
 }
 

@@ -12,6 +12,7 @@
 #include "host/core/trace.h"
 #include "host/frame/frame_renderer.h"
 #include "host/frame/shading_options.h"
+#include "host/ocl/device_clock.h"
 #include "host/report/picture/aov.h"
 #include "host/report/picture/image_io.h"
 #include "host/report/picture/star.h"
@@ -30,10 +31,12 @@ struct RenderOptions {
 };
 
 void printTimes(const std::string& what, const FrameTimes& raster, const FrameTimes& shading,
-                double readback_ns) {
-  fmt::print("{}: raster {:.1f} ms, upload {:.1f} ms, shading {:.1f} ms, readback {:.1f} ms\n",
+                double readback_ns, Timer timer) {
+  const bool by_wall = timer == Timer::kWall;
+  fmt::print("{}: raster {:.1f} ms, upload {:.1f} ms, shading {:.1f} ms{}, readback {:.1f} ms\n",
              what, raster.raster_ns * 1e-6, raster.upload_ns * 1e-6,
-             shading.shading_event_ns * 1e-6, readback_ns * 1e-6);
+             (by_wall ? shading.shading_wall_ns : shading.shading_event_ns) * 1e-6,
+             by_wall ? " by the wall clock" : "", readback_ns * 1e-6);
 }
 
 // PNG gets the scene's post effects. EXR holds radiance for measuring, with the star only on
@@ -111,7 +114,7 @@ int runRender(const CommandLine& line, const RenderOptions& options) {
   writeRendered(std::move(radiance), options, scene.post, extension);
   if (!options.aov_output.empty()) writeExr(planesToImage(renderer.planes()), options.aov_output);
   printTimes(fmt::format("{}/{} {}x{}", scene.name, view.name, size.width_px, size.height_px),
-             prepared, shaded, read.readback_ns);
+             prepared, shaded, read.readback_ns, device.clock().timer());
   if (broken > 0) {
     fmt::print(stderr,
                "glintmark: {} pixels of the picture are not finite: some value of the scene is too "

@@ -5,54 +5,49 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <fstream>
-#include <limits>
-#include <optional>
+#include <cmath>
 
+#include "host/core/control_group.h"
 #include "host/core/error.h"
 
 namespace glintmark {
 namespace {
 
-constexpr std::uint64_t kUnknown = std::numeric_limits<std::uint64_t>::max();
+namespace fs = std::filesystem;
 
-std::uint64_t numberIn(const char* file) {
-  std::ifstream stream(file);
-  std::uint64_t value = 0;
-  return stream >> value ? value : kUnknown;
+// What a group may still take: files that it has cached can go.
+double leastGroupMemory(const fs::path& root) {
+  double bytes = INFINITY;
+  const auto consider = [&](const fs::path& folder, const char* limit, const char* used,
+                            const char* cached) {
+    const auto most = readNumber(folder / limit), held = readNumber(folder / used);
+    if (!most || !held) return;
+    const double files = numberAfter(folder / "memory.stat", cached).value_or(0);
+    bytes = std::min(bytes, std::max(0.0, *most - *held + files));
+  };
+  for (const fs::path& folder : groupFolders(root, ""))
+    consider(folder, "memory.max", "memory.current", "inactive_file");
+  for (const fs::path& folder : groupFolders(root, "memory"))
+    consider(folder, "memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file");
+  return bytes;
 }
 
-std::uint64_t systemBytes() {
-  std::ifstream stream("/proc/meminfo");
-  for (std::string key, unit; stream >> key;) {
-    std::uint64_t kilobytes = 0;
-    if (key == "MemAvailable:" && stream >> kilobytes) return kilobytes * 1024;
-    std::getline(stream, unit);
-  }
-  return kUnknown;
-}
-
-std::uint64_t controlGroupBytes() {
-  const std::uint64_t most = numberIn("/sys/fs/cgroup/memory.max");
-  const std::uint64_t used = numberIn("/sys/fs/cgroup/memory.current");
-  if (most == kUnknown || used == kUnknown) return kUnknown;
-  return most - std::min(used, most);
-}
-
-std::uint64_t addressSpaceBytes() {
-  rlimit limit{};
-  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return kUnknown;
-  const std::uint64_t pages = numberIn("/proc/self/statm");
-  if (pages == kUnknown) return kUnknown;
-  const std::uint64_t used = pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-  return limit.rlim_cur - std::min<std::uint64_t>(used, limit.rlim_cur);
+double leastAddressSpace(const fs::path& root) {
+  rlimit limit = {};
+  const auto pages = readNumber(root / "proc/self/statm");
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY || !pages)
+    return INFINITY;
+  const double used = *pages * static_cast<double>(sysconf(_SC_PAGESIZE));
+  return std::max(0.0, static_cast<double>(limit.rlim_cur) - used);
 }
 
 }  // namespace
 
-std::uint64_t freeMemoryBytes() {
-  const std::uint64_t least = std::min({systemBytes(), controlGroupBytes(), addressSpaceBytes()});
-  return least == kUnknown ? 0 : least;
+std::uint64_t freeMemoryBytes(const fs::path& root) {
+  const auto free_kb = numberAfter(root / "proc/meminfo", "MemAvailable:");
+  const double least = std::min(
+      {free_kb ? *free_kb * 1024 : INFINITY, leastGroupMemory(root), leastAddressSpace(root)});
+  return std::isfinite(least) ? static_cast<std::uint64_t>(least) : 0;
 }
 
 void requireMemory(std::uint64_t bytes, const std::string& what) {

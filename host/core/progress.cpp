@@ -1,14 +1,23 @@
 #include "host/core/progress.h"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 
 namespace glintmark {
 namespace {
 
-constexpr std::size_t kMaxLineLength = 79;  // a wrapped line could not be overwritten
+constexpr std::size_t kMaxLineLength = 79;
+
+// A wrapped line could not be overwritten.
+std::size_t lineLength() {
+  winsize size = {};
+  if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col < 2) return kMaxLineLength;
+  return std::min<std::size_t>(kMaxLineLength, size.ws_col - 1u);
+}
 
 }  // namespace
 
@@ -21,7 +30,7 @@ Progress::~Progress() {
 void Progress::show(int done, int total, const std::string& what) {
   if (!active_) return;
   std::string line = total > 0 ? fmt::format("[{}/{}] {}", done, total, what) : what;
-  if (line.size() > kMaxLineLength) line.resize(kMaxLineLength);
+  line.resize(std::min(line.size(), lineLength()));
   std::fprintf(stderr, "\r\033[K%s", line.c_str());
   std::fflush(stderr);
   shown_ = true;

@@ -80,7 +80,12 @@ int runBench(const Session& session, const std::vector<std::string>& names,
     startTrace();
   }
   BenchRun run(session, options);
-  for (const BenchTable& table : tables) table.measure(run);
+  try {
+    for (const BenchTable& table : tables) table.measure(run);
+  } catch (const Interrupted&) {
+    if (!options.trace.empty()) writeTrace(options.trace, run.info());
+    throw;
+  }
   std::vector<std::string> texts;
   texts.reserve(tables.size());
   for (const BenchTable& table : tables) texts.push_back(table.text(run));

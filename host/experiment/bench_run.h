@@ -12,6 +12,7 @@
 #include "host/frame/shading_options.h"
 #include "host/ocl/compute.h"
 #include "host/report/record/folder_lock.h"
+#include "host/report/record/machine.h"
 #include "host/report/record/record.h"
 #include "host/report/record/record_log.h"
 #include "host/report/record/table_spec.h"
@@ -77,17 +78,21 @@ class BenchRun {
   std::vector<Record> recordsOf(const std::string& table) const;
   const std::vector<Record>& records() const { return records_; }
 
-  /// Writes results.json, results.csv, table.txt and the copies asked for, and prints `text`.
+  /// Measures the peaks once more, writes results.json, results.csv, table.txt and the copies asked
+  /// for, and prints the tables, which clock timed them and whether the machine was busy.
   /// Returns kExitCheckFailed if some record is not valid. Throws Error if a file cannot be
   /// written; the log has all records then.
-  int finish(const std::string& text) const;
+  int finish(const std::string& tables);
 
  private:
   std::vector<Record> loggedCase(const std::string& table, const std::string& case_name,
                                  const std::vector<std::string>& metrics) const;
 
+  void noteEnd();
+
   const Session& session_;
   const BenchOptions& options_;
+  MachineWatch watch_;
   Device device_;
   ImageSize size_;
   GlintMethod method_;

@@ -5,26 +5,35 @@
 namespace glintmark {
 namespace {
 
-volatile std::sig_atomic_t interrupt_seen = 0;
+constexpr int kSignalExit = 128;
 
-void noteInterrupt(int signal) {
-  interrupt_seen = 1;
-  std::signal(signal, SIG_DFL);
+volatile std::sig_atomic_t signal_seen = 0;
+
+void noteSignal(int signal) {
+  signal_seen = signal;
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
 }
 
 }  // namespace
 
 InterruptGuard::InterruptGuard() {
-  interrupt_seen = 0;
-  previous_ = std::signal(SIGINT, noteInterrupt);
+  signal_seen = 0;
+  previous_interrupt_ = std::signal(SIGINT, noteSignal);
+  previous_terminate_ = std::signal(SIGTERM, noteSignal);
 }
 
 InterruptGuard::~InterruptGuard() {
-  std::signal(SIGINT, previous_);
+  std::signal(SIGINT, previous_interrupt_);
+  std::signal(SIGTERM, previous_terminate_);
 }
 
 bool InterruptGuard::interrupted() {
-  return interrupt_seen != 0;
+  return signal_seen != 0;
+}
+
+int InterruptGuard::exitCode() {
+  return kSignalExit + (signal_seen != 0 ? signal_seen : SIGINT);
 }
 
 }  // namespace glintmark

@@ -1,19 +1,17 @@
-// Ctrl-C during long measurements.
+// Ctrl-C, or a request to end, during long measurements.
 #pragma once
 #include <stdexcept>
 
 namespace glintmark {
 
-/// The user pressed Ctrl-C; the message says what is kept.
+/// The user pressed Ctrl-C, or the system asked to end; the message says what is kept.
 class Interrupted : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Exit code of a program that SIGINT ended: 128 + 2.
-inline constexpr int kExitInterrupted = 130;
-
-/// While it lives, the first SIGINT only sets a flag; a second one ends the program at once.
+/// While it lives, the first SIGINT or SIGTERM only sets a flag; a second one ends the program at
+/// once.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -22,9 +20,13 @@ class InterruptGuard {
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 
   static bool interrupted();
+  /// Exit code of a program that the signal of the last guard ended: 128 + its number; as for
+  /// SIGINT if there was none.
+  static int exitCode();
 
  private:
-  void (*previous_)(int);
+  void (*previous_interrupt_)(int);
+  void (*previous_terminate_)(int);
 };
 
 }  // namespace glintmark

@@ -5,6 +5,8 @@
 #include <charconv>
 
 #include "host/core/error.h"
+#include "host/ocl/device_clock.h"
+#include "host/ocl/driver_cache.h"
 #include "host/report/picture/image_io.h"
 #include "host/report/record/run_info.h"
 
@@ -20,6 +22,13 @@ bool parseInt(const char*& cursor, const char* end, int& value) {
   const auto [next, error] = std::from_chars(cursor, end, value);
   cursor = next;
   return error == std::errc();
+}
+
+TimerChoice parseTimer(const std::string& text) {
+  if (text == "auto") return TimerChoice::kAuto;
+  if (text == "device") return TimerChoice::kDevice;
+  if (text == "wall") return TimerChoice::kWall;
+  throw Error(fmt::format("--timer '{}' is none of auto, device and wall", text));
 }
 
 }  // namespace
@@ -50,12 +59,23 @@ ImageSize parseSize(const std::string& text) {
   return size;
 }
 
-Device openDevice(const CommonOptions& common) {
+void prepareDrivers(const CommonOptions& common) {
   const int lanes = common.lanes;
   if (lanes != 0 && lanes != 1 && lanes != 4 && lanes != 8 && lanes != 16) {
     throw Error(fmt::format("--width {} is not a lane count; use 1, 4, 8 or 16", lanes));
   }
-  return Device(common.device);
+  parseTimer(common.timer);
+  const std::string note = prepareDriverCache();
+  if (!note.empty() && !common.quiet) fmt::print(stderr, "note: {}\n", note);
+}
+
+Device openDevice(const CommonOptions& common) {
+  prepareDrivers(common);
+  Device device(common.device, parseTimer(common.timer));
+  if (!common.quiet)
+    device.clock().onDistrust(
+        [](const std::string& why) { fmt::print(stderr, "note: {}\n", why); });
+  return device;
 }
 
 int chosenLanes(const CommonOptions& common, const Device& device) {

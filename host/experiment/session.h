@@ -11,9 +11,10 @@ namespace glintmark {
 
 /// Options that stand before or after any subcommand.
 struct CommonOptions {
-  std::string device;  // index or name substring
-  int lanes = 0;       // --width; 0: from the device
-  int threads = 0;     // of the rasterizer; 0: all cores
+  std::string device;          // index or name substring
+  int lanes = 0;               // --width; 0: from the device
+  std::string timer = "auto";  // of kernels: auto, device, wall
+  int threads = 0;             // of the rasterizer; 0: all cores
   std::vector<std::string> overrides;
   std::string mesh_file, asset_folder;
   bool quiet = false;
@@ -32,8 +33,14 @@ struct ImageSize {
 /// memory than there is.
 ImageSize parseSize(const std::string& text);
 
-/// Opens the chosen device. Throws Error for a width that kernels do not come in, DeviceError if
-/// there is no such device.
+/// Checks the options that choose how kernels run, gives drivers what they need of the system,
+/// once, and says so on stderr unless quiet. For what comes before openDevice(), which does it too.
+/// Throws Error like openDevice().
+void prepareDrivers(const CommonOptions& common);
+
+/// Opens the chosen device. Unless quiet, it says on stderr if its clock turns out to be of no use.
+/// Throws Error for a width that kernels do not come in or an unknown timer, DeviceError if there
+/// is no such device.
 Device openDevice(const CommonOptions& common);
 
 /// Lanes that kernels will have on `device`.

@@ -1,6 +1,7 @@
 #include "host/frame/frame_pass.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "host/core/float4.h"
 #include "host/core/glint_grids.h"
@@ -48,7 +49,8 @@ void FramePass::makeBands() {
   const std::size_t words = std::max(planes().size(), kernel_.result_planes);
   const std::size_t row_bytes = words * 4 * static_cast<std::size_t>(camera_.width_px);
   const std::size_t padding_bytes = words * 4 * GM_LIST_PADDING * scene_.materials.size();
-  const std::size_t limit = device_.info().max_alloc_bytes;
+  const std::size_t stated = device_.info().max_alloc_bytes;
+  const std::size_t limit = stated > 0 ? stated : std::numeric_limits<std::size_t>::max();
   const std::size_t rows = limit > padding_bytes ? (limit - padding_bytes) / row_bytes : 0;
   const int band_rows = static_cast<int>(
       std::clamp<std::size_t>(rows, 1, static_cast<std::size_t>(camera_.height_px)));

@@ -10,7 +10,7 @@ namespace glintmark {
 struct FrameTimes {
   double raster_ns = 0;
   double upload_ns = 0;
-  double shading_event_ns = 0;            // by the kernels' events
+  double shading_event_ns = 0;            // by LaunchTimes::event_ns
   double shading_wall_ns = 0;             // enqueue to finish on the host's clock
   std::vector<double> launch_event_ns{};  // by launch: a band's pixel lists, then the next band's
   double readback_ns = 0;

@@ -22,21 +22,24 @@ std::shared_ptr<Buffer::Impl> allocate(Device& device, std::size_t bytes, cl_mem
                                        const std::string& given_name) {
   const std::string what = given_name.empty() ? std::string(purposeName(purpose)) : given_name;
   const DeviceInfo& info = device.info();
-  if (bytes > info.max_alloc_bytes)
+  if (info.max_alloc_bytes > 0 && bytes > info.max_alloc_bytes)
     throw Error(fmt::format("{} needs {:.1f} MiB, but '{}' allows at most {:.1f} MiB per buffer",
                             what, mebibytes(bytes), info.name, mebibytes(info.max_alloc_bytes)));
   auto impl = std::make_shared<Buffer::Impl>();
   impl->queue = device.impl().queue;
+  impl->clock = device.impl().clock;
   impl->bytes = bytes;
   impl->purpose = purpose;
   impl->what = what;
   try {
     impl->buffer = cl::Buffer(device.impl().context, flags, bytes, host);
   } catch (const cl::Error& error) {
-    throw openClError(
-        fmt::format("allocating {:.1f} MiB for {} on '{}' (it has {:.1f} MiB)", mebibytes(bytes),
-                    what, info.name, mebibytes(info.global_mem_bytes)),
-        error);
+    throw openClError(fmt::format("allocating {:.1f} MiB for {} on '{}' (it has {})",
+                                  mebibytes(bytes), what, info.name,
+                                  info.global_mem_bytes > 0
+                                      ? fmt::format("{:.1f} MiB", mebibytes(info.global_mem_bytes))
+                                      : "memory of unknown size"),
+                      error);
   }
   device.impl().ledger->add(purpose, bytes);
   impl->ledger = device.impl().ledger;
@@ -57,7 +60,7 @@ Buffer::Impl& allocated(Buffer::Impl* impl) {
 // Wall time [ns] of `transfer`, which gets the event to fill or, while tracing is off, null, with
 // OpenCL errors made into ours.
 template <typename Transfer>
-double timed(const std::string& doing, Transfer&& transfer) {
+double timed(const std::string& doing, const DeviceClock& clock, Transfer&& transfer) {
   const TraceScope scope("transfer", doing);
   const bool traced = isTracing();
   const std::int64_t trace_begin_ns = traced ? traceNowNs() : 0;
@@ -65,7 +68,7 @@ double timed(const std::string& doing, Transfer&& transfer) {
   try {
     cl::Event event;
     transfer(traced ? &event : nullptr);
-    if (traced) traceEvent("transfer", doing, event, trace_begin_ns);
+    if (traced) traceEvent("transfer", doing, event, trace_begin_ns, clock);
   } catch (const cl::Error& error) {
     throw openClError(doing, error);
   }
@@ -100,7 +103,7 @@ double Buffer::write(const void* source, std::size_t bytes, std::size_t offset) 
   Impl& impl = allocated(impl_.get());
   checkRange(impl, bytes, offset, "write");
   if (bytes == 0) return 0;
-  return timed("writing " + impl.what, [&](cl::Event* event) {
+  return timed("writing " + impl.what, *impl.clock, [&](cl::Event* event) {
     impl.queue.enqueueWriteBuffer(impl.buffer, CL_TRUE, offset, bytes, source, nullptr, event);
   });
 }
@@ -109,14 +112,14 @@ double Buffer::read(void* target, std::size_t bytes, std::size_t offset) const {
   Impl& impl = allocated(impl_.get());
   checkRange(impl, bytes, offset, "read");
   if (bytes == 0) return 0;
-  return timed("reading " + impl.what, [&](cl::Event* event) {
+  return timed("reading " + impl.what, *impl.clock, [&](cl::Event* event) {
     impl.queue.enqueueReadBuffer(impl.buffer, CL_TRUE, offset, bytes, target, nullptr, event);
   });
 }
 
 void Buffer::fillZero() {
   Impl& impl = allocated(impl_.get());
-  timed("clearing " + impl.what, [&](cl::Event* event) {
+  timed("clearing " + impl.what, *impl.clock, [&](cl::Event* event) {
     impl.queue.enqueueFillBuffer(impl.buffer, cl_uchar{0}, 0, impl.bytes, nullptr, event);
     impl.queue.finish();
   });

@@ -42,7 +42,7 @@ class Buffer {
 };
 
 struct LaunchTimes {
-  double event_ns = 0;         // kernel START to END
+  double event_ns = 0;         // kernel START to END; the wall time where those cannot be used
   double wall_ns = 0;          // enqueue to finish on the host
   bool first_enqueue = false;  // the first of its kind: wall_ns may hold compilation
 };
@@ -52,10 +52,11 @@ using KernelArg = std::variant<Buffer, std::int32_t, std::uint32_t, float>;
 /// One built kernel.
 class Kernel {
  public:
-  /// Sets all arguments, enqueues a 1-D range rounded up to `local_size` and waits. `global_size` 0
-  /// does nothing. PoCL compiles at the first launch of a kernel for each local size, once below
-  /// and once from 2^16 work-items: these launches are marked and summed by firstEnqueueNs().
-  /// Throws Error with the kernel's name and OpenCL error.
+  /// Sets all arguments, enqueues a 1-D range rounded up to `local_size` and waits. Where the
+  /// device takes no groups of `local_size` for this kernel, they have a size that divides it.
+  /// `global_size` 0 does nothing. PoCL compiles at the first launch of a kernel for each local
+  /// size, once below and once from 2^16 work-items: these launches are marked and summed by
+  /// firstEnqueueNs(). Throws Error with the kernel's name and OpenCL error.
   LaunchTimes launch(std::span<const KernelArg> args, std::size_t global_size,
                      std::size_t local_size);
   double firstEnqueueNs() const;  // sum of wall times of first launches
@@ -122,7 +123,9 @@ struct DevicePeaks {
 };
 /// Takes the fastest of many launches, about 0.5 s after the first time, and checks what they
 /// computed; `lanes` is the vector width to use (DeviceInfo::default_lanes for the device's own
-/// peak). Throws Error if the device computes a wrong answer.
+/// peak). The device's clock is tried on launches that are long by the wall clock, and given up if
+/// it makes peaks that no device has. Throws Error if the device computes a wrong answer, or if the
+/// wall clock makes such a peak, too.
 DevicePeaks measurePeaks(Device& device, ProgramCache& cache, int lanes);
 
 }  // namespace glintmark

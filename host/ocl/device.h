@@ -10,24 +10,54 @@
 
 namespace glintmark {
 
+/// Facts that a driver refuses to give, or gives as 0, are unknown: 0 or empty here.
 struct DeviceInfo {
   int index = 0;  // over all platforms, in the order the loader lists them
   std::string name, vendor, platform, platform_version, driver_version, opencl_c_version;
   std::string type;  // "CPU", "GPU", "accelerator"
   unsigned compute_units = 0;
   unsigned max_clock_mhz = 0;
-  unsigned preferred_float_width = 1;
-  unsigned max_work_group_size = 1;
+  unsigned preferred_float_width = 0;
+  std::size_t max_work_group_size = 0;  // of any kernel in one dimension
   unsigned long long global_mem_bytes = 0, max_alloc_bytes = 0, local_mem_bytes = 0;
   unsigned long long cache_bytes = 0;  // of global memory, all cores together
+  unsigned long long timer_resolution_ns = 0;
   bool is_cpu = false;
   bool host_unified_memory = false;
   bool correctly_rounded_divide_sqrt = false;
   int default_lanes = 1;  // W for wide kernels: 16, 8, 4 or 1
+  std::string problem;    // why it cannot run kernels; empty if nothing is known to be wrong
+  std::vector<std::string> refused;  // names of the facts that the driver refused
 };
+
+/// A platform of the OpenCL loader with its devices.
+struct PlatformInfo {
+  std::string name, version, vendor;
+  std::string problem;  // why it offers no devices; empty if it does
+  std::vector<DeviceInfo> devices;
+};
+
+/// What the OpenCL loader finds. Never throws for what is missing or broken.
+struct PlatformList {
+  std::vector<PlatformInfo> platforms;
+  std::string problem;  // of the loader as a whole: no platform is installed, or it fails
+  /// Drivers that are registered with the loader but cannot be loaded, "FILE: why".
+  std::vector<std::string> broken_drivers;
+};
+PlatformList listPlatforms();
 
 /// All devices of all platforms; empty if there is no OpenCL platform at all (never throws for it).
 std::vector<DeviceInfo> listDevices();
+
+/// Which clock times kernels: the device's while it makes sense, always the device's, or the
+/// wall's.
+enum class TimerChoice { kAuto, kDevice, kWall };
+/// The one that is in use.
+enum class Timer { kDevice, kWall };
+/// "device" or "wall", as in records.
+const char* timerName(Timer timer);
+
+class DeviceClock;
 
 /// Bytes of device buffers: held now, and at most at once since the peaks were last reset.
 struct BufferBytes {
@@ -44,9 +74,10 @@ struct BufferUse {
 /// host/ocl/opencl.h, so this header does not include them.
 class Device {
  public:
-  /// `selector`: empty = first GPU, else first device; a number = index; else a case-insensitive
-  /// substring of the device or platform name. Throws DeviceError listing what there is.
-  explicit Device(const std::string& selector = "");
+  /// `selector`: empty = first GPU, else first device, that has no problem; a number = index; else,
+  /// in any case, the name of the device or a part of its or its platform's name that no other
+  /// device has. Throws DeviceError listing what there is, and what is wrong with each.
+  explicit Device(const std::string& selector = "", TimerChoice timer = TimerChoice::kAuto);
   ~Device();
   Device(Device&&) noexcept;
   Device& operator=(Device&&) noexcept;
@@ -57,6 +88,9 @@ class Device {
   BufferUse bufferUse() const;
   /// Forgets what has been freed: peaks become what is held now.
   void resetBufferPeaks();
+
+  /// Judges the device's times, and says which clock is in use.
+  DeviceClock& clock() const;
 
   struct Impl;
   Impl& impl() { return *impl_; }  // for host/ocl only

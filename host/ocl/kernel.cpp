@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "host/core/stopwatch.h"
 #include "host/core/trace.h"
 #include "host/ocl/opencl.h"
@@ -34,6 +36,41 @@ void setArgs(Kernel::Impl& impl, std::span<const KernelArg> args) {
   }
 }
 
+// The largest divisor of `wanted` that is at most `limit` (0: not known), so that ranges stay
+// multiples of it and no work-item is added.
+std::size_t fittingLocalSize(std::size_t wanted, std::size_t limit) {
+  if (limit == 0 || limit >= wanted) return wanted;
+  std::size_t fitting = limit;
+  while (wanted % fitting != 0) --fitting;
+  return fitting;
+}
+
+// Drivers refuse groups that their own limits allow, some for want of registers.
+bool mayBeTooLargeAGroup(cl_int code) {
+  return code == CL_INVALID_WORK_GROUP_SIZE || code == CL_INVALID_WORK_ITEM_SIZE ||
+         code == CL_OUT_OF_RESOURCES;
+}
+
+// Enqueues and waits; `local_size` divides `global_size`.
+LaunchTimes launchOnce(Kernel::Impl& impl, std::size_t global_size, std::size_t local_size) {
+  LaunchTimes times;
+  const std::pair<std::size_t, bool> kind = {local_size, global_size < kSmallGridItems};
+  times.first_enqueue = !impl.launched.contains(kind);
+  const TraceScope scope("launch", impl.name);
+  const std::int64_t trace_begin_ns = isTracing() ? traceNowNs() : 0;
+  const Stopwatch watch;
+  cl::Event event;
+  impl.queue.enqueueNDRangeKernel(impl.kernel, cl::NullRange, cl::NDRange(global_size),
+                                  cl::NDRange(local_size), nullptr, &event);
+  event.wait();
+  times.wall_ns = watch.elapsedNs();
+  times.event_ns = impl.clock->launchNs(eventTimes(event), times.wall_ns);
+  if (isTracing()) traceEvent("kernel", impl.name, event, trace_begin_ns, *impl.clock);
+  impl.launched.insert(kind);
+  if (times.first_enqueue) impl.first_enqueue_ns += times.wall_ns;
+  return times;
+}
+
 }  // namespace
 
 LaunchTimes Kernel::launch(std::span<const KernelArg> args, std::size_t global_size,
@@ -43,30 +80,24 @@ LaunchTimes Kernel::launch(std::span<const KernelArg> args, std::size_t global_s
     throw Error(fmt::format("kernel '{}' needs a local size of at least 1", impl_->name));
   LaunchTimes times;
   if (global_size == 0) return times;
-  const std::size_t groups = (global_size + local_size - 1) / local_size;
+  const std::size_t items = (global_size + local_size - 1) / local_size * local_size;
+  std::size_t group = fittingLocalSize(local_size, impl_->max_local_size);
   try {
     setArgs(*impl_, args);
-    const TraceScope scope("launch", impl_->name);
-    const std::int64_t trace_begin_ns = isTracing() ? traceNowNs() : 0;
-    const Stopwatch watch;
-    cl::Event event;
-    impl_->queue.enqueueNDRangeKernel(impl_->kernel, cl::NullRange,
-                                      cl::NDRange(groups * local_size), cl::NDRange(local_size),
-                                      nullptr, &event);
-    event.wait();
-    times.wall_ns = watch.elapsedNs();
-    const cl_ulong begun_ns = event.getProfilingInfo<CL_PROFILING_COMMAND_START>();
-    const cl_ulong ended_ns = event.getProfilingInfo<CL_PROFILING_COMMAND_END>();
-    times.event_ns = static_cast<double>(ended_ns - begun_ns);
-    if (isTracing()) traceEvent("kernel", impl_->name, event, trace_begin_ns);
+    for (;; group = fittingLocalSize(local_size, group / 2)) {
+      try {
+        times = launchOnce(*impl_, items, group);
+        break;
+      } catch (const cl::Error& error) {
+        if (group == 1 || !mayBeTooLargeAGroup(error.err())) throw;
+      }
+    }
   } catch (const cl::Error& error) {
-    throw openClError(fmt::format("kernel '{}' (global size {}, local size {})", impl_->name,
-                                  groups * local_size, local_size),
-                      error);
+    throw openClError(
+        fmt::format("kernel '{}' (global size {}, local size {})", impl_->name, items, group),
+        error);
   }
-  times.first_enqueue =
-      impl_->launched.insert({local_size, groups * local_size < kSmallGridItems}).second;
-  if (times.first_enqueue) impl_->first_enqueue_ns += times.wall_ns;
+  if (group < fittingLocalSize(local_size, impl_->max_local_size)) impl_->max_local_size = group;
   return times;
 }
 

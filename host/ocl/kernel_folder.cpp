@@ -10,6 +10,7 @@
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
 #include "host/ocl/compute.h"
+#include "host/ocl/driver_cache.h"
 
 namespace glintmark {
 namespace fs = std::filesystem;
@@ -41,17 +42,18 @@ std::uint64_t hashKernels(const fs::path& folder) {
 }
 
 IncludePath::IncludePath(const std::string& folder) : folder_(folder) {
-  if (folder.find_first_of(" \t") == std::string::npos) return;
+  // Drivers take options apart at blanks, some like a shell.
+  if (folder.find_first_of(" \t\n\"'\\`$;&|<>()*?[]{}#!") == std::string::npos) return;
   std::error_code error;
   const fs::path link =
-      fs::temp_directory_path(error) / fmt::format("glintmark-kernels-{}", ::getpid());
+      fs::path(folderWithoutBlanks()) / fmt::format("glintmark-kernels-{}", ::getpid());
   fs::remove(link, error);
   fs::create_directory_symlink(fs::absolute(folder), link, error);
   if (error)
-    throw Error(
-        fmt::format("the kernel folder '{}' has a blank in its path and no link to it could "
-                    "be made: {}",
-                    folder, error.message()));
+    throw Error(fmt::format(
+        "the kernel folder '{}' has a blank or a quote in its path and no link to it could "
+        "be made: {}",
+        folder, error.message()));
   link_ = link.string();
 }
 

@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -17,6 +18,7 @@
 #include "host/core/error.h"
 #include "host/ocl/compute.h"
 #include "host/ocl/device.h"
+#include "host/ocl/device_clock.h"
 
 namespace glintmark {
 
@@ -43,8 +45,9 @@ struct Device::Impl {
   DeviceInfo info;
   cl::Device device;
   cl::Context context;
-  cl::CommandQueue queue;  // in order, profiling
+  cl::CommandQueue queue;  // in order, profiling where the device can
   std::shared_ptr<BufferLedger> ledger = std::make_shared<BufferLedger>();
+  std::shared_ptr<DeviceClock> clock{};
 };
 
 struct Buffer::Impl {
@@ -53,6 +56,7 @@ struct Buffer::Impl {
   }
   cl::Buffer buffer;
   cl::CommandQueue queue;
+  std::shared_ptr<DeviceClock> clock{};
   std::size_t bytes = 0;
   BufferPurpose purpose = BufferPurpose::kProbe;
   std::string what;                      // as messages call it
@@ -66,6 +70,8 @@ struct Kernel::Impl {
   std::set<std::pair<std::size_t, bool>> launched;  // local size, small grid
   double first_enqueue_ns = 0;
   std::vector<std::string> parameter_names{};
+  std::shared_ptr<DeviceClock> clock{};
+  std::size_t max_local_size = 0;  // what the device takes for this kernel; 0: not known
 };
 
 /// A program for one device; shared by all Program handles that the cache gave out.
@@ -76,6 +82,8 @@ struct BuiltProgram {
   std::string file;
   std::string options;
   std::map<std::string, std::shared_ptr<Kernel::Impl>> kernels;
+  std::shared_ptr<DeviceClock> clock{};
+  std::size_t max_local_size = 0;  // of the device; 0: not known
 };
 
 struct Program::Impl {
@@ -84,10 +92,13 @@ struct Program::Impl {
   bool from_disk_cache = false;
 };
 
-/// Keeps a finished command for the trace; the host enqueued it after `host_begin_ns` by
-/// traceNowNs().
+/// What the event of a finished command says; nothing if the driver refuses.
+std::optional<EventTimes> eventTimes(const cl::Event& event);
+
+/// Keeps a finished command for the trace, if its times make sense and the device's clock is in
+/// use; the host enqueued it after `host_begin_ns` by traceNowNs().
 void traceEvent(const char* category, const std::string& name, const cl::Event& event,
-                std::int64_t host_begin_ns);
+                std::int64_t host_begin_ns, const DeviceClock& clock);
 
 /// Compiled binary of a built program for its device; empty if the driver gives none.
 std::string programBinary(const cl::Program& program);

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "host/ocl/opencl.h"
 
 namespace glintmark {
@@ -27,6 +29,18 @@ std::vector<std::string> parameterNames(const cl::Kernel& kernel) {
   return names;
 }
 
+// The larger groups that a device takes may still be too large for one of its kernels.
+std::size_t maxLocalSize(const cl::Kernel& kernel, const BuiltProgram& built) {
+  std::size_t of_kernel = 0;
+  try {
+    of_kernel = kernel.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(built.device);
+  } catch (const cl::Error&) {
+    return built.max_local_size;
+  }
+  if (of_kernel == 0 || built.max_local_size == 0) return std::max(of_kernel, built.max_local_size);
+  return std::min(of_kernel, built.max_local_size);
+}
+
 }  // namespace
 
 Kernel Program::kernel(const std::string& name) const {
@@ -39,6 +53,8 @@ Kernel Program::kernel(const std::string& name) const {
     made->queue = built.queue;
     made->name = name;
     made->parameter_names = parameterNames(made->kernel);
+    made->clock = built.clock;
+    made->max_local_size = maxLocalSize(made->kernel, built);
     kernel = std::move(made);
   } catch (const cl::Error& error) {
     built.kernels.erase(name);

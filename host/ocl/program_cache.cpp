@@ -60,6 +60,7 @@ struct ProgramCache::Impl {
     device.device = opened.impl().device;
     device.context = opened.impl().context;
     device.queue = opened.impl().queue;
+    device.clock = opened.impl().clock;
   }
 
   cl::Program buildFromSource(const std::string& file, const std::string& options,
@@ -108,8 +109,14 @@ Program ProgramCache::Impl::build(const std::string& file, const std::string& ow
   if (const auto binary = disk.load(name, key)) built = buildFromBinary(device, *binary, options);
   program->from_disk_cache = built.has_value();
   if (!built) built = buildFromSource(file, options, hash);
-  program->built = std::make_shared<BuiltProgram>(
-      BuiltProgram{*built, device.device, device.queue, file, options, {}});
+  program->built = std::make_shared<BuiltProgram>(BuiltProgram{*built,
+                                                               device.device,
+                                                               device.queue,
+                                                               file,
+                                                               options,
+                                                               {},
+                                                               device.clock,
+                                                               info.max_work_group_size});
   memory[key] = program->built;
   program->build_ns = watch.elapsedNs();
   // After the clock has stopped: asking PoCL for a binary compiles every kernel once more.

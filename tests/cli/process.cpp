@@ -6,7 +6,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
 
 #include "host/core/atomic_file.h"
 
@@ -45,7 +51,33 @@ Process::Process(const std::vector<std::string>& arguments,
 }
 
 void Process::interrupt() const {
-  ::kill(pid_, SIGINT);
+  send(SIGINT);
+}
+
+void Process::send(int signal) const {
+  ::kill(pid_, signal);
+}
+
+std::string Process::errSoFar() const {
+  std::ifstream stream(folder_ / "err");
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::vector<int> Process::children() const {
+  std::vector<int> found;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc", error)) {
+    const int pid = std::atoi(entry.path().filename().c_str());
+    if (pid <= 0) continue;
+    std::ifstream stream(entry.path() / "stat");
+    std::string text{std::istreambuf_iterator<char>(stream), {}};
+    // "PID (NAME) STATE PARENT …"; a name may hold anything.
+    std::istringstream rest(text.substr(std::min(text.size(), text.rfind(')') + 1)));
+    std::string state;
+    int parent = 0;
+    if (rest >> state >> parent && parent == pid_) found.push_back(pid);
+  }
+  return found;
 }
 
 void Process::kill() const {

@@ -27,9 +27,14 @@ class Process {
                    const std::vector<std::string>& environment = {},
                    std::size_t most_file_bytes = 0);
   void interrupt() const;
+  void send(int signal) const;
   /// SIGKILL: nothing of the program runs any more.
   void kill() const;
   bool isRunning() const;
+  /// What it has written to stderr.
+  std::string errSoFar() const;
+  /// Its own child processes.
+  std::vector<int> children() const;
   ProcessResult wait();
 
  private:

@@ -78,8 +78,13 @@ TEST(Usage, Sizes) {
 }
 
 TEST(Usage, Devices) {
-  expectError({"--device", "no such device", "info"}, 3, {"no such device", "0: "});
-  expectError({"info"}, 3, {"no OpenCL device"}, {"OCL_ICD_VENDORS=/nonexistent"});
+  expectError({"--device", "no such device", "verify"}, 3, {"no such device", "0: "});
+  expectError({"verify"}, 3, {"no OpenCL device"}, {"OCL_ICD_VENDORS=/nonexistent"});
+  // The list comes first all the same.
+  const ProcessResult info = runGlintmark({"info", "--device", "no such device"});
+  EXPECT_EQ(info.exit_code, 3);
+  EXPECT_NE(info.out.find("device 0: "), std::string::npos) << info.out;
+  EXPECT_NE(info.err.find("no such device"), std::string::npos) << info.err;
   expectError({"bench", "-o", "unused_results_folder"}, 3, {"no OpenCL device"},
               {"OCL_ICD_VENDORS=/nonexistent"});
   EXPECT_FALSE(std::filesystem::exists("unused_results_folder"));

@@ -96,14 +96,11 @@ TEST_F(KernelTest, MisuseIsOneSentence) {
             "an empty kernel was launched; it must come from a program");
 }
 
-TEST_F(KernelTest, OpenClErrorsAreNamed) {
+// tests/faulty_driver has drivers that refuse what they said they take.
+TEST_F(KernelTest, GroupsThatAreTooLargeAreMadeSmaller) {
   const KernelArg args[] = {values_, std::uint32_t{1}};
   const std::size_t too_many = device_.info().max_work_group_size * std::size_t{2};
-  const std::string message =
-      errorOf([&] { program_.kernel("count").launch(args, too_many, too_many); });
-  EXPECT_TRUE(message.starts_with("kernel 'count' (global size ")) << message;
-  EXPECT_NE(message.find(" failed with CL_INVALID_WORK_"), std::string::npos) << message;
-  EXPECT_TRUE(message.ends_with("_SIZE in clEnqueueNDRangeKernel")) << message;
+  EXPECT_NO_THROW(program_.kernel("count").launch(args, too_many, too_many));
 }
 
 TEST_F(KernelTest, UnknownKernelListsTheKnown) {

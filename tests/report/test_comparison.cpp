@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 #include <random>
+#include <utility>
 
 #include "tests/report/sample_records.h"
 
@@ -40,6 +41,50 @@ TEST(Comparison, TellsChangeFromNoise) {
   EXPECT_EQ(changeOf("shading_ms", "ms", {10, 14, 7, 10}, {12, 17, 9, 12}), Change::kNoise);
   EXPECT_EQ(changeOf("shading_ms", "ms", {10, 10.01, 9.99, 10}, {10.2, 10.21, 10.19, 10.2}),
             Change::kSame);  // certain, but below the threshold
+}
+
+// The words go where WORSE would stand, and only where a busy machine explains it.
+TEST(Comparison, ABusyMachineIsSaidInThePlaceOfWorse) {
+  const std::vector<double> low = {10, 10.1, 9.9, 10}, high = {12, 12.1, 11.9, 12};
+  const auto compare = [](const Record& before, const Record& after, const RunInfo& old_run,
+                          const RunInfo& new_run) {
+    return compareResults({old_run, {before}}, {new_run, {after}}, {}, kThreshold);
+  };
+  RunInfo busy = sampleRun();
+  busy.busy = "its FMA peak moved from 200 to 150 GFLOP/s";
+  const Record fast = measured("shading_ms", "ms", low), slow = measured("shading_ms", "ms", high);
+  for (const auto& [old_run, new_run] :
+       {std::pair{sampleRun(), busy}, std::pair{busy, sampleRun()}}) {
+    const ComparisonReport report = compare(fast, slow, old_run, new_run);
+    EXPECT_EQ(report.comparisons.at(0).change, Change::kBusy);
+    EXPECT_FALSE(report.hasRegression());
+    EXPECT_NE(comparisonText(report, false).find("run was busy: its FMA peak moved"),
+              std::string::npos);
+  }
+  EXPECT_EQ(compare(slow, fast, sampleRun(), busy).comparisons.at(0).change, Change::kBetter);
+  EXPECT_EQ(compare(measured("loop_instructions", "instructions", {100}),
+                    measured("loop_instructions", "instructions", {200}), sampleRun(), busy)
+                .comparisons.at(0)
+                .change,
+            Change::kWorse);
+  EXPECT_EQ(compare(measured("colour_error", "1", {0.05}), measured("colour_error", "1", {0.06}),
+                    sampleRun(), busy)
+                .comparisons.at(0)
+                .change,
+            Change::kWorse);
+}
+
+TEST(Comparison, FiguresOfTwoClocksAreCountedAndCompared) {
+  Record before = measured("shading_ms", "ms", {10, 10.1, 9.9}), after = before;
+  before.timer = "device";
+  after.timer = "wall";
+  after.config["timer"] = "wall";
+  const ComparisonReport report =
+      compareResults({sampleRun(), {before}}, {sampleRun(), {after}}, {}, kThreshold);
+  EXPECT_EQ(report.comparisons.size(), 1u);
+  EXPECT_EQ(report.other_timers, 1u);
+  EXPECT_NE(comparisonText(report, false).find("1 figures were timed by another clock"),
+            std::string::npos);
 }
 
 TEST(Comparison, KnowsWhichWayIsBetter) {

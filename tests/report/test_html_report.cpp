@@ -50,6 +50,16 @@ TEST(HtmlReport, ShowsFactsPaperAndRatio) {
   EXPECT_EQ(countOf(page, "<table>"), countOf(page, "</table>"));
 }
 
+TEST(HtmlReport, ABusyMachineIsSaid) {
+  Results results = sampleResults();
+  const char* const said = "the machine was busy";
+  EXPECT_EQ(htmlReport(results, {}, {}, "results.json").find(said), std::string::npos);
+  results.run.busy = "others kept 1.9 of 2 processors busy";
+  const std::string html = htmlReport(results, {}, {}, "results.json");
+  EXPECT_NE(html.find(said), std::string::npos);
+  EXPECT_NE(html.find(results.run.busy), std::string::npos);
+}
+
 TEST(HtmlReport, NothingIsLoadedAndNothingEscapes) {
   const std::string page = htmlReport(pageResults(), {}, {}, "results.json");
   EXPECT_EQ(page.find("src=\"http"), std::string::npos);

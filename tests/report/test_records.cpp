@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
@@ -26,12 +27,27 @@ void expectEqual(const Record& a, const Record& b) {
   EXPECT_EQ(a.valid, b.valid);
   EXPECT_EQ(a.note, b.note);
   EXPECT_EQ(a.config, b.config);
+  EXPECT_EQ(a.timer, b.timer);
+}
+
+void expectEqual(const MachineState& a, const MachineState& b) {
+  EXPECT_EQ(a.load, b.load);
+  EXPECT_EQ(a.clock_mhz, b.clock_mhz);
+  EXPECT_EQ(a.peak_gflops, b.peak_gflops);
+  EXPECT_EQ(a.peak_gbs, b.peak_gbs);
 }
 
 Results sampleResults() {
   Results results{sampleRun(), {}};
+  results.run.memory_bytes = 8ull << 30;
+  results.run.begin = {0.5, 3000, 451.25, 20.5};
+  results.run.end = {1.5, 2500, 400.5, 19.25};
+  results.run.others_cores = 0.25;
+  results.run.throttled_s = 0.125;
+  results.run.busy = "why";
   results.records.push_back(sampleRecord("snow/steep", "shading_ms", 1.0 / 3));
   results.records.back().paper = 2.5;
+  results.records.back().timer = "wall";
   results.records.push_back(sampleRecord("snow/grazing", "cells_mean", 24.75));
   results.records.back().valid = false;
   results.records.back().note = "a, b; \"c\"\nnew line, \xC3\xA9";
@@ -52,10 +68,28 @@ TEST(Records, JsonRoundTripIsExact) {
   EXPECT_EQ(back.run.width, results.run.width);
   EXPECT_EQ(back.run.peak_gflops, results.run.peak_gflops);
   EXPECT_EQ(back.run.peak_gbs, results.run.peak_gbs);
+  EXPECT_EQ(back.run.memory_bytes, results.run.memory_bytes);
+  expectEqual(back.run.begin, results.run.begin);
+  expectEqual(back.run.end, results.run.end);
+  EXPECT_EQ(back.run.others_cores, results.run.others_cores);
+  EXPECT_EQ(back.run.throttled_s, results.run.throttled_s);
+  EXPECT_EQ(back.run.busy, results.run.busy);
   ASSERT_EQ(back.records.size(), results.records.size());
   for (std::size_t i = 0; i < back.records.size(); ++i) {
     expectEqual(back.records[i], results.records[i]);
   }
+}
+
+// Files of before there were machine states and timers, as those in results/ are.
+TEST(Records, OlderFilesAreRead) {
+  nlohmann::json json = nlohmann::json::parse(toJson(sampleResults()));
+  for (const char* field : {"memory_bytes", "begin", "end", "others_cores", "throttled_s", "busy"})
+    json["run"].erase(field);
+  for (auto& record : json["records"]) record.erase("timer");
+  const Results back = fromJson(json.dump(), "text");
+  EXPECT_EQ(back.run.busy, "");
+  EXPECT_EQ(back.run.end.peak_gflops, 0);
+  EXPECT_EQ(back.records.at(0).timer, "");
 }
 
 TEST(Records, LinesRoundTripAndHaveNoNewline) {
@@ -110,7 +144,7 @@ TEST(Records, CsvQuotesAndCounts) {
   const std::string csv = toCsv(sampleResults().records);
   EXPECT_NE(csv.find("zk16,snow/steep,shading_ms,ms,0.3333333333333333,"), std::string::npos)
       << csv;
-  EXPECT_NE(csv.find(",5,2.5,true,,method=zk16;size=1920x1080\n"), std::string::npos) << csv;
+  EXPECT_NE(csv.find(",5,2.5,true,,method=zk16;size=1920x1080,wall\n"), std::string::npos) << csv;
   EXPECT_NE(csv.find(",5,,false,\"a, b; \"\"c\"\"\nnew line"), std::string::npos) << csv;
 }
 

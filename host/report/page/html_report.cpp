@@ -24,6 +24,7 @@ std::string factsHtml(const RunInfo& run) {
   add("lanes", std::to_string(run.width));
   add("peak", fmt::format("{:.0f} GFLOP/s, {:.1f} GB/s, measured", run.peak_gflops, run.peak_gbs));
   add("measured", run.date + ", version " + run.git);
+  if (!run.busy.empty()) add("the machine was busy", run.busy);
   add("command", run.command);
   return html + "</dl>\n";
 }

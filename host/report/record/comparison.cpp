@@ -42,6 +42,7 @@ Key keyOf(const Record& record) {
   std::map<std::string, std::string> config = record.config;
   config.erase("kernels");
   config.erase("reps");
+  config.erase("timer");
   return {record.table, record.case_, record.metric, std::move(config)};
 }
 
@@ -78,6 +79,18 @@ Change judge(std::span<const TableSpec> tables, const Record& before, const Reco
   return Change::kDifferent;
 }
 
+// Does a busy machine make this figure worse? What is counted, and how far results are off, it
+// cannot change.
+bool dependsOnTheMachine(const Record& record) {
+  const auto has = [&](const char* part) { return record.metric.find(part) != std::string::npos; };
+  return record.unit != "bytes" && record.unit != "instructions" && !has("error") && !has("bias") &&
+         record.metric != "rel_mse";
+}
+
+std::string busySentence(const char* which, const std::string& why) {
+  return why.empty() ? "" : fmt::format("The machine of the {} run was busy: {}.\n", which, why);
+}
+
 std::size_t countOf(const ComparisonReport& report, Change change) {
   return static_cast<std::size_t>(
       std::ranges::count(report.comparisons, change, &Comparison::change));
@@ -106,6 +119,8 @@ std::string changeName(Change change) {
       return "WORSE";
     case Change::kDifferent:
       return "different";
+    case Change::kBusy:
+      return "busy";
     case Change::kUndecided:
       return "undecided";
   }
@@ -121,6 +136,8 @@ ComparisonReport compareResults(const Results& old_results, const Results& new_r
   std::map<Key, const Record*> before;
   for (const Record& record : old_results.records) before[keyOf(record)] = &record;
   ComparisonReport report;
+  report.old_busy = old_results.run.busy;
+  report.new_busy = new_results.run.busy;
   std::size_t partners = 0;
   for (const Record& after : new_results.records) {
     const auto found = before.find(keyOf(after));
@@ -141,6 +158,10 @@ ComparisonReport compareResults(const Results& old_results, const Results& new_r
                  .new_value = after.value.median};
     c.p_value = welchOnMedians(old_record.value, after.value);
     c.change = judge(tables, old_record, after, c.p_value, threshold);
+    const bool busy = !report.old_busy.empty() || !report.new_busy.empty();
+    if (c.change == Change::kWorse && busy && dependsOnTheMachine(after)) c.change = Change::kBusy;
+    const bool timed = !old_record.timer.empty() && !after.timer.empty();
+    if (timed && old_record.timer != after.timer) ++report.other_timers;
     report.comparisons.push_back(std::move(c));
   }
   report.only_old = before.size() - std::min(before.size(), partners);
@@ -159,11 +180,16 @@ std::string comparisonText(const ComparisonReport& report, bool all) {
   }
   std::string text = any ? table.toString() + "\n" : "";
   text += fmt::format(
-      "{} figures compared: {} same, {} within noise, {} better, {} worse, {} different, {} "
-      "undecided.\n",
+      "{} figures compared: {} same, {} within noise, {} better, {} worse, {} different, {} busy, "
+      "{} undecided.\n",
       report.comparisons.size(), countOf(report, Change::kSame), countOf(report, Change::kNoise),
       countOf(report, Change::kBetter), countOf(report, Change::kWorse),
-      countOf(report, Change::kDifferent), countOf(report, Change::kUndecided));
+      countOf(report, Change::kDifferent), countOf(report, Change::kBusy),
+      countOf(report, Change::kUndecided));
+  text += busySentence("old", report.old_busy) + busySentence("new", report.new_busy);
+  if (report.other_timers > 0)
+    text += fmt::format("{} figures were timed by another clock in the old run.\n",
+                        report.other_timers);
   if (report.only_old + report.only_new > 0)
     text += fmt::format("{} figures are only in the old file, {} only in the new one.\n",
                         report.only_old, report.only_new);
@@ -177,6 +203,8 @@ std::string comparisonJson(const ComparisonReport& report, double threshold) {
                                  {"threshold", threshold},
                                  {"level", kChangeLevel},
                                  {"regression", report.hasRegression()},
+                                 {"old_busy", report.old_busy},
+                                 {"new_busy", report.new_busy},
                                  {"only_old", report.only_old},
                                  {"only_new", report.only_new},
                                  {"newly_invalid", report.newly_invalid}};

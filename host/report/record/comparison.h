@@ -16,10 +16,11 @@ enum class Change {
   kBetter,     // beyond both
   kWorse,      // beyond both: a regression
   kDifferent,  // beyond both, in a figure that is neither good nor bad
+  kBusy,       // worse, but a machine was busy
   kUndecided,  // one of the two was measured once, so that its spread is not known
 };
 
-/// "same", "noise", "better", "WORSE", "different", "undecided".
+/// "same", "noise", "better", "WORSE", "different", "busy", "undecided".
 std::string changeName(Change change);
 
 struct Comparison {
@@ -33,6 +34,8 @@ struct ComparisonReport {
   std::vector<Comparison> comparisons;     // in the order of the new file
   std::size_t only_old = 0, only_new = 0;  // records without a partner
   std::vector<std::string> newly_invalid;  // "table case metric": valid before, not any more
+  std::string old_busy{}, new_busy{};      // why a machine was busy
+  std::size_t other_timers = 0;            // times that the other run took by another clock
 
   bool hasRegression() const;
 };
@@ -45,7 +48,8 @@ inline constexpr double kChangeLevel = 0.01;
 /// the standard error of a median is sqrt(pi / 2) stddev / sqrt(n), as for normal samples. Figures
 /// that are not times and have no spread are exact, so any difference beyond `threshold` (a
 /// fraction, 0.05 for 5 %) is a change; `tables` say which ratios are wanted small. The test knows
-/// nothing of drift between the two runs.
+/// nothing of drift between the two runs: where one of them says that its machine was busy, times
+/// that got worse are called busy.
 ComparisonReport compareResults(const Results& old_results, const Results& new_results,
                                 std::span<const TableSpec> tables, double threshold);
 

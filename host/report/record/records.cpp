@@ -13,13 +13,32 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+Json stateToJson(const MachineState& state) {
+  return {{"load", state.load},
+          {"clock_mhz", state.clock_mhz},
+          {"peak_gflops", state.peak_gflops},
+          {"peak_gbs", state.peak_gbs}};
+}
+
 Json runToJson(const RunInfo& run) {
-  return {{"date", run.date},         {"git", run.git},
-          {"command", run.command},   {"cpu", run.cpu},
-          {"cores", run.cores},       {"device", run.device},
-          {"driver", run.driver},     {"platform", run.platform},
-          {"width", run.width},       {"peak_gflops", run.peak_gflops},
-          {"peak_gbs", run.peak_gbs}, {"inputs", run.inputs}};
+  return {{"date", run.date},
+          {"git", run.git},
+          {"command", run.command},
+          {"cpu", run.cpu},
+          {"cores", run.cores},
+          {"device", run.device},
+          {"driver", run.driver},
+          {"platform", run.platform},
+          {"width", run.width},
+          {"peak_gflops", run.peak_gflops},
+          {"peak_gbs", run.peak_gbs},
+          {"inputs", run.inputs},
+          {"memory_bytes", run.memory_bytes},
+          {"begin", stateToJson(run.begin)},
+          {"end", stateToJson(run.end)},
+          {"others_cores", run.others_cores},
+          {"throttled_s", run.throttled_s},
+          {"busy", run.busy}};
 }
 
 // A whole number that T can hold; the library casts whatever number it finds.
@@ -29,6 +48,11 @@ T wholeNumber(const Json& json, const char* name) {
   if (!(value >= 0 && value <= 1e9 && value == std::floor(value)))
     throw Error(fmt::format("field {} is {}, not a whole number from 0 to 1e9", name, value));
   return static_cast<T>(value);
+}
+
+MachineState stateFromJson(const Json& json) {
+  return {json.at("load").get<double>(), json.at("clock_mhz").get<double>(),
+          json.at("peak_gflops").get<double>(), json.at("peak_gbs").get<double>()};
 }
 
 RunInfo runFromJson(const Json& json) {
@@ -45,6 +69,13 @@ RunInfo runFromJson(const Json& json) {
   json.at("peak_gflops").get_to(run.peak_gflops);
   json.at("peak_gbs").get_to(run.peak_gbs);
   run.inputs = json.value("inputs", "");
+  if (!json.contains("busy")) return run;  // of an older program
+  run.memory_bytes = static_cast<unsigned long long>(json.at("memory_bytes").get<double>());
+  run.begin = stateFromJson(json.at("begin"));
+  run.end = stateFromJson(json.at("end"));
+  json.at("others_cores").get_to(run.others_cores);
+  json.at("throttled_s").get_to(run.throttled_s);
+  json.at("busy").get_to(run.busy);
   return run;
 }
 
@@ -67,7 +98,8 @@ Json recordToJson(const Record& record) {
           {"paper", record.paper ? Json(*record.paper) : Json(nullptr)},
           {"valid", record.valid && isFinite(record.value)},
           {"note", record.note},
-          {"config", record.config}};
+          {"config", record.config},
+          {"timer", record.timer}};
 }
 
 double numberOrNan(const Json& json) {
@@ -89,6 +121,7 @@ Record recordFromJson(const Json& json) {
   json.at("valid").get_to(record.valid);
   json.at("note").get_to(record.note);
   json.at("config").get_to(record.config);
+  if (json.contains("timer")) json.at("timer").get_to(record.timer);
   return record;
 }
 
@@ -188,18 +221,19 @@ LogLine parseRecordLine(const std::string& line, const std::string& source) {
 }
 
 std::string toCsv(const std::vector<Record>& records) {
-  std::string csv = "table,case,metric,unit,median,min,p95,stddev,n,paper,valid,note,config\n";
+  std::string csv =
+      "table,case,metric,unit,median,min,p95,stddev,n,paper,valid,note,config,timer\n";
   for (const Record& record : records) {
     std::string config;
     for (const auto& [key, value] : record.config) {
       config += fmt::format("{}{}={}", config.empty() ? "" : ";", key, value);
     }
     const Summary& v = record.value;
-    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csvField(record.table),
+    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csvField(record.table),
                        csvField(record.case_), csvField(record.metric), csvField(record.unit),
                        v.median, v.min, v.p95, v.stddev, v.n,
                        record.paper ? fmt::format("{}", *record.paper) : "", record.valid,
-                       csvField(record.note), csvField(config));
+                       csvField(record.note), csvField(config), csvField(record.timer));
   }
   return csv;
 }

@@ -5,10 +5,10 @@
 
 #include <ctime>
 #include <fstream>
-#include <thread>
 
 #include "glintmark_git_version.h"
 #include "host/core/free_memory.h"
+#include "host/report/record/machine.h"
 
 namespace glintmark {
 namespace {
@@ -41,7 +41,9 @@ RunInfo describeHost(std::span<const char* const> command_line) {
     run.command += word;
   }
   run.cpu = procValue("/proc/cpuinfo", "model name");
-  run.cores = static_cast<int>(std::thread::hardware_concurrency());
+  run.cores = usableCores();
+  run.memory_bytes = availableMemoryBytes();
+  run.begin = machineState();
   return run;
 }
 

@@ -7,15 +7,15 @@
 
 namespace glintmark {
 
-/// Date (UTC, ISO 8601), program version, command line, processor model and core count of this
-/// process; the device fields are left for the caller.
+/// Date (UTC, ISO 8601), program version, command line, processor model, cores and memory that this
+/// process may use, and the machine's state; the device fields are left for the caller.
 RunInfo describeHost(std::span<const char* const> command_line);
 
 /// `git describe` style version of the source the program was built from: short hash, "-dirty" if
 /// it had changes, "unknown" outside a git checkout.
 std::string gitVersion();
 
-/// Memory that programs can still take, from /proc/meminfo [bytes]; 0 if the system does not say.
+/// Memory that this process can still take [bytes]; 0 if the system does not say.
 unsigned long long availableMemoryBytes();
 
 }  // namespace glintmark

@@ -1,0 +1,166 @@
+// Drivers that die, hang or run out of resources cost `verify` one check; what was found is kept.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "tests/faulty_driver/faulty.h"
+
+namespace glintmark {
+namespace {
+
+using Json = nlohmann::json;
+
+// Its second check alone launches probeFma.
+constexpr const char* kTwoChecks = "^device/";
+
+Json resultOf(const Json& json, const std::string& name) {
+  for (const Json& check : json["checks"])
+    if (check["name"] == name) return check;
+  return {};
+}
+
+struct Fault {
+  const char* faults;
+  const char* note;
+};
+
+void PrintTo(const Fault& fault, std::ostream* out) {
+  *out << fault.faults;
+}
+
+class Survival : public testing::TestWithParam<Fault> {};
+
+TEST_P(Survival, OneCheckFailsTheOthersRun) {
+  const TempFolder folder;
+  const ProcessResult result = runFaulty({"verify", "--only", kTwoChecks, "--timeout", "20",
+                                          "--json", folder / "v.json", "--junit", folder / "v.xml"},
+                                         GetParam().faults);
+  EXPECT_EQ(result.exit_code, 1) << result.err << result.out;
+  EXPECT_NE(result.err.find("[1/2] device/structs\n[2/2] device/fma\n"), std::string::npos)
+      << result.err;
+  const Json json = Json::parse(readFile(folder / "v.json"));
+  EXPECT_EQ(json["passed"], 1);
+  EXPECT_EQ(json["failed"], 1);
+  const std::string note = resultOf(json, "device/structs")["note"];
+  EXPECT_NE(note.find(GetParam().note), std::string::npos) << note;
+  EXPECT_EQ(resultOf(json, "device/fma")["verdict"], "pass");
+  const std::string junit = readFile(folder / "v.xml");
+  EXPECT_NE(junit.find("tests=\"2\" failures=\"1\""), std::string::npos) << junit;
+  EXPECT_NE(junit.find("classname=\"device\" name=\"structs\""), std::string::npos) << junit;
+  EXPECT_NE(junit.find(GetParam().note), std::string::npos) << junit;
+  EXPECT_EQ(folder.entryCount(), 2u);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Survival,
+                         testing::Values(Fault{"crash=probeTypeSizes", "ended by signal 11"},
+                                         Fault{"stall=probeTypeSizes",
+                                               "gave no answer within 20 s"},
+                                         Fault{"exit=probeTypeSizes", "ended with exit code 7"},
+                                         Fault{"resources=probeTypeSizes", "CL_OUT_OF_RESOURCES"}),
+                         [](const auto& tested) {
+                           const std::string faults = tested.param.faults;
+                           return faults.substr(0, faults.find('='));
+                         });
+
+std::vector<std::string> whole(const TempFolder& folder) {
+  return {"verify", "--only", "^(device|seeds)/", "--json", folder / "v.json"};
+}
+
+// The last check hangs: it is the signal that ends the run, and all before it is kept.
+void interruptAndResume(int signal, int exit_code) {
+  const TempFolder folder;
+  Process process(whole(folder), faultyEnvironment("stall=probeFma"));
+  const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(100);
+  const auto reached = [&] { return process.errSoFar().find("device/fma") != std::string::npos; };
+  while (!reached() && std::chrono::steady_clock::now() < give_up)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  process.send(signal);
+  const ProcessResult stopped = process.wait();
+  EXPECT_EQ(stopped.exit_code, exit_code) << stopped.err;
+  EXPECT_NE(stopped.err.find("interrupted; 1 of 4 checks ran, --resume carries on"),
+            std::string::npos)
+      << stopped.err;
+  EXPECT_EQ(Json::parse(readFile(folder / "v.json"))["passed"], 1);
+  EXPECT_TRUE(std::filesystem::exists(folder / "v.json.partial"));
+
+  std::vector<std::string> resume = whole(folder);
+  resume.push_back("--resume");
+  const ProcessResult resumed = runGlintmark(resume);
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_EQ(resumed.err.find("device/structs"), std::string::npos) << resumed.err;
+  const Json json = Json::parse(readFile(folder / "v.json"));
+  EXPECT_EQ(json["passed"], 4);
+  EXPECT_EQ(json["chosen"], 4);
+  EXPECT_EQ(folder.entryCount(), 1u);
+}
+
+TEST(Interrupts, CtrlCKeepsWhatWasFound) {
+  interruptAndResume(SIGINT, 130);
+}
+TEST(Interrupts, RequestsToEndKeepWhatWasFound) {
+  interruptAndResume(SIGTERM, 143);
+}
+
+// A child must not outlive its parent.
+TEST(Interrupts, AKilledRunLeavesNoProcess) {
+  const TempFolder folder;
+  Process process(whole(folder), faultyEnvironment("stall=probeFma"));
+  const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(100);
+  while (process.errSoFar().find("device/fma") == std::string::npos &&
+         std::chrono::steady_clock::now() < give_up)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  const std::vector<int> children = process.children();
+  ASSERT_EQ(children.size(), 1u);
+  process.kill();
+  process.wait();
+  const auto gone = [&] { return ::kill(children[0], 0) != 0; };
+  while (!gone() && std::chrono::steady_clock::now() < give_up)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_TRUE(gone());
+}
+
+TEST(Resume, NeedsTheSameDeviceAndAFile) {
+  const TempFolder folder;
+  const ProcessResult bare = runGlintmark({"verify", "--resume"});
+  EXPECT_EQ(bare.exit_code, 2);
+  EXPECT_NE(bare.err.find("--resume needs the --json or --junit file"), std::string::npos);
+  Process process(whole(folder), faultyEnvironment("stall=probeFma"));
+  while (process.isRunning() && process.errSoFar().find("device/fma") == std::string::npos)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  process.send(SIGTERM);
+  process.wait();
+  std::vector<std::string> other = whole(folder);
+  other.insert(other.end(), {"--resume", "--width", "1"});
+  const ProcessResult refused = runGlintmark(other);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("its checks ran with width"), std::string::npos) << refused.err;
+}
+
+TEST(Opening, ADriverThatDiesThereIsNoUsableDevice) {
+  const ProcessResult result = runFaulty({"verify", "--only", kTwoChecks}, "exit=opening");
+  EXPECT_EQ(result.exit_code, 3) << result.err;
+  EXPECT_NE(result.err.find("the process that opened the OpenCL device ended with exit code 7"),
+            std::string::npos)
+      << result.err;
+}
+
+// A request to end leaves the log and the trace of a benchmark.
+TEST(Bench, KeepsRecordsAndTraceAtARequestToEnd) {
+  const TempFolder folder;
+  Process process({"bench", "zk16", "--quiet", "--scene", "screen_plane", "--size", "160x90",
+                   "--reps", "10000", "-o", folder / "run", "--trace", folder / "trace.json"});
+  while (process.isRunning() && !std::filesystem::exists(folder / "run/records.jsonl"))
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  process.send(SIGTERM);
+  const ProcessResult result = process.wait();
+  EXPECT_EQ(result.exit_code, 143) << result.err;
+  EXPECT_NE(result.err.find("--resume carries on"), std::string::npos) << result.err;
+  EXPECT_FALSE(Json::parse(readFile(folder / "trace.json"))["traceEvents"].empty());
+}
+
+}  // namespace
+}  // namespace glintmark
