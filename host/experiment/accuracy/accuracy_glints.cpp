@@ -231,7 +231,7 @@ AccuracyKind glintsAccuracy() {
   return {
       "glints",
       knobs,
-      knownScenes(),
+      glintScenes(),
       {"screen_plane/grazing", "snow/grazing"},
       [](BenchRun& run, const std::vector<std::string>& scenes) {
         const int side = latticeSide(run);
