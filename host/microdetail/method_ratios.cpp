@@ -7,7 +7,7 @@
 namespace glintmark {
 namespace {
 
-constexpr std::size_t kGroup = 16;  // work-items
+constexpr std::size_t kRatioGroup = 16;  // work-items
 
 // The planes of several lattices behind each other.
 std::vector<std::uint32_t> allWords(std::span<const PixelLattice> lattices, std::size_t stride) {
@@ -45,7 +45,7 @@ std::vector<std::vector<glm::vec3>> methodRatios(Device& device, ProgramCache& c
       static_cast<std::uint32_t>(stride)};
   cache.get("microdetail/method_ratios.cl", config)
       .kernel("methodRatios")
-      .launch(arguments, stride / static_cast<std::size_t>(config.width), kGroup);
+      .launch(arguments, stride / static_cast<std::size_t>(config.width), kRatioGroup);
   std::vector<float> words(3 * stride);
   ratios.read(words.data(), words.size() * 4);
   std::vector<std::vector<glm::vec3>> values;

@@ -13,7 +13,7 @@ namespace glintmark {
 namespace {
 
 constexpr double kDetailsPerLaunch = 2e7;
-constexpr std::size_t kGroup = 4;  // work-items: pixels are long work
+constexpr std::size_t kTruthGroup = 4;  // work-items: pixels are long work
 constexpr int kWheelColours = 768;
 
 glm::dvec2 both(const float2& v) {
@@ -119,7 +119,7 @@ MicrodetailRatios MicrodetailTruth::place(const PixelLattice& lattice,
     const std::size_t count = std::min(batch, pixels - first);
     arguments[arguments.size() - 2] = static_cast<std::uint32_t>(first);
     arguments[arguments.size() - 1] = static_cast<std::uint32_t>(count);
-    kernel.launch(arguments, count, kGroup);
+    kernel.launch(arguments, count, kTruthGroup);
   }
   std::vector<float> words(MD_SUM_PLANES * stride);
   sums.read(words.data(), words.size() * 4);

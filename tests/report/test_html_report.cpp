@@ -51,7 +51,7 @@ TEST(HtmlReport, ShowsFactsPaperAndRatio) {
 }
 
 TEST(HtmlReport, ABusyMachineIsSaid) {
-  Results results = sampleResults();
+  Results results = pageResults();
   const char* const said = "the machine was busy";
   EXPECT_EQ(htmlReport(results, {}, {}, "results.json").find(said), std::string::npos);
   results.run.busy = "others kept 1.9 of 2 processors busy";

@@ -19,8 +19,8 @@ double geometricMean(std::span<const AccuracyFigures> figures, Get get) {
   return std::exp(sum / static_cast<double>(figures.size()));
 }
 
-std::optional<double> geometricMeanOf(std::span<const AccuracyFigures> figures,
-                                      std::optional<double> AccuracyFigures::*member) {
+std::optional<double> geometricMeanOver(std::span<const AccuracyFigures> figures,
+                                        std::optional<double> AccuracyFigures::*member) {
   if (std::ranges::any_of(figures, [&](const auto& one) { return !(one.*member); })) return {};
   return geometricMean(figures, [&](const auto& one) { return *(one.*member); });
 }
@@ -45,7 +45,7 @@ AccuracyFigures meanFigures(std::span<const AccuracyFigures> figures) {
   mean.truth_stderr = geometricMean(figures, [](const auto& one) { return one.truth_stderr; });
   for (const auto member : {&AccuracyFigures::rel_mse, &AccuracyFigures::colour_error,
                             &AccuracyFigures::variance_ratio, &AccuracyFigures::motion_ratio})
-    mean.*member = geometricMeanOf(figures, member);
+    mean.*member = geometricMeanOver(figures, member);
   for (const AccuracyFigures& one : figures) {
     mean.bias += one.bias / static_cast<double>(figures.size());
     if (mean.failure.empty()) mean.failure = one.failure;

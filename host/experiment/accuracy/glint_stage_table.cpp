@@ -17,29 +17,29 @@ namespace {
 
 enum class Over { kGeometric, kMean, kMost };  // how stages are put together
 
-struct Column {
+struct StageColumn {
   const char* name;
   const char* metric;
   Over over;
 };
 
-constexpr Column kFigures[] = {{"W1", "error", Over::kGeometric},
-                               {"s.e.", "truth_stderr", Over::kGeometric},
-                               {"lobes", "lobes_error", Over::kGeometric},
-                               {"tent", "tent_error", Over::kGeometric},
-                               {"mean-1", "bias", Over::kMean},
-                               {"variance", "variance_ratio", Over::kGeometric},
-                               {"dark", "dark_share", Over::kMean},
-                               {"(truth)", "truth_dark_share", Over::kMean},
-                               {"largest", "largest_of_bound", Over::kMost},
-                               {"corr.", "correlation", Over::kMean},
-                               {"motion", "motion_ratio", Over::kGeometric}};
-constexpr Column kSwings[] = {{"W1", "error_swing", Over::kMean},
-                              {"variance", "variance_swing", Over::kMean},
-                              {"dark", "dark_swing", Over::kMean},
-                              {"largest", "largest_swing", Over::kMean},
-                              {"correlation", "correlation_swing", Over::kMean},
-                              {"motion", "motion_swing", Over::kMean}};
+constexpr StageColumn kFigures[] = {{"W1", "error", Over::kGeometric},
+                                    {"s.e.", "truth_stderr", Over::kGeometric},
+                                    {"lobes", "lobes_error", Over::kGeometric},
+                                    {"tent", "tent_error", Over::kGeometric},
+                                    {"mean-1", "bias", Over::kMean},
+                                    {"variance", "variance_ratio", Over::kGeometric},
+                                    {"dark", "dark_share", Over::kMean},
+                                    {"(truth)", "truth_dark_share", Over::kMean},
+                                    {"largest", "largest_of_bound", Over::kMost},
+                                    {"corr.", "correlation", Over::kMean},
+                                    {"motion", "motion_ratio", Over::kGeometric}};
+constexpr StageColumn kSwings[] = {{"W1", "error_swing", Over::kMean},
+                                   {"variance", "variance_swing", Over::kMean},
+                                   {"dark", "dark_swing", Over::kMean},
+                                   {"largest", "largest_swing", Over::kMean},
+                                   {"correlation", "correlation_swing", Over::kMean},
+                                   {"motion", "motion_swing", Over::kMean}};
 
 // Of cases "glints/SETTING/aspect=…/lambda=…".
 struct StageCase {
@@ -61,7 +61,7 @@ std::vector<StageCase> stageCases(std::span<const Record> records, const char* m
 }
 
 std::optional<double> together(std::span<const Record> records, const std::vector<StageCase>& cases,
-                               const Column& column) {
+                               const StageColumn& column) {
   std::vector<double> values;
   for (const StageCase& one : cases) {
     const Record* record = CaseRecords(records, one.case_name).find(column.metric);
@@ -110,10 +110,10 @@ std::vector<Line> linesOf(const std::vector<StageCase>& cases) {
   return lines;
 }
 
-std::string tableOf(std::span<const Record> records, std::span<const Column> columns) {
+std::string tableOf(std::span<const Record> records, std::span<const StageColumn> columns) {
   const std::vector<StageCase> cases = stageCases(records, columns.front().metric);
   std::vector<std::string> header = {"glints", "pixels"}, settings;
-  for (const Column& column : columns) header.emplace_back(column.name);
+  for (const StageColumn& column : columns) header.emplace_back(column.name);
   TextTable table(header);
   for (const StageCase& one : cases)
     if (std::ranges::find(settings, one.setting) == settings.end()) settings.push_back(one.setting);
@@ -125,7 +125,7 @@ std::string tableOf(std::span<const Record> records, std::span<const Column> col
     std::string name = setting;  // on the first line
     for (const Line& line : linesOf(own)) {
       std::vector<std::string> row = {std::exchange(name, ""), line.pixels};
-      for (const Column& column : columns)
+      for (const StageColumn& column : columns)
         row.push_back(shortNumber(together(records, line.cases, column)));
       table.addRow(row);
     }
