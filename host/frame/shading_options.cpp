@@ -34,8 +34,8 @@ std::string defaultMethod() {
   return choiceName(ShadingOptions{}.method);
 }
 
-std::string methodHelp() {
-  return fmt::format("{} (default: {})", listOf(namesOf<GlintMethod>(), "or"), defaultMethod());
+std::string methodHelp(const std::string& by_default) {
+  return fmt::format("{} (default: {})", listOf(namesOf<GlintMethod>(), "or"), by_default);
 }
 
 }  // namespace glintmark

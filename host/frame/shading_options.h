@@ -44,10 +44,10 @@ void setKnobs(const ShadingOptions& options, bool KernelConfig::*effect, KernelC
 /// it may not have.
 void turnKnob(ShadingOptions& options, std::string_view macro, int value);
 
-/// "zk16" or "exact"; throws Error listing the two.
+/// "zk16", say; throws Error listing all.
 GlintMethod parseMethod(const std::string& name);
-/// The same by default, and what a help text says of all: "zk16 or exact (default: zk16)".
+/// The paper's by default, and what a help text says of all: "zk16 or exact (default: zk16)".
 std::string defaultMethod();
-std::string methodHelp();
+std::string methodHelp(const std::string& by_default = defaultMethod());
 
 }  // namespace glintmark
