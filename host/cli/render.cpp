@@ -13,6 +13,7 @@
 #include "host/frame/frame_renderer.h"
 #include "host/frame/shading_options.h"
 #include "host/ocl/device_clock.h"
+#include "host/ocl/switches.h"
 #include "host/report/picture/aov.h"
 #include "host/report/picture/image_io.h"
 #include "host/report/picture/star.h"

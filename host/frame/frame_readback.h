@@ -7,7 +7,7 @@
 
 namespace glintmark {
 
-/// Cells visited, over the covered pixels of glint materials.
+/// Cells visited, over the pixels of glint materials that some light reaches.
 struct CellCounts {
   std::uint32_t min = 0, max = 0;
   double mean = 0;

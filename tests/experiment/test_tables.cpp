@@ -26,6 +26,7 @@ std::vector<Record> tenViews(double scale) {
       }
       records.push_back(sampleRecord(name, "triangles", 570000));
       records.push_back(sampleRecord(name, "covered_px", 2073600));
+      records.push_back(sampleRecord(name, "glint_share", 1));
       records.push_back(sampleRecord(name, "cells_min", 8));
       records.push_back(sampleRecord(name, "cells_max", 64));
       records.push_back(sampleRecord(name, "guard_hits", 2073600));

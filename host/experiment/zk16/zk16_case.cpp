@@ -191,6 +191,10 @@ void CaseMeasurement::addFacts(const FrameRenderer& glint, const PrepareSamples&
   add("first_enqueue_ms", {glint.firstEnqueueNs() * kMsPerNs});
   add("triangles", {static_cast<double>(scene_.mesh.triangleCount())});
   add("covered_px", {static_cast<double>(glint.planes().covered_px)});
+  double glint_px = 0;
+  for (const PixelList& list : glint.planes().lists)
+    if (scene_.materials[list.material].has_glints) glint_px += list.count;
+  add("glint_share", {glint_px / pixels});
   add("buffer_bytes_per_px", {static_cast<double>(glint.bufferBytes()) / pixels});
 }
 
@@ -244,13 +248,12 @@ Zk16Case CaseMeasurement::run() {
 
 const std::vector<std::string>& zk16Metrics() {
   static const std::vector<std::string> metrics = {
-      "shading_ms",       "shading_event_ms", "frame_with_ms",
-      "frame_without_ms", "ns_per_cell",      "speedup_vs_w1",
-      "cells_min",        "cells_mean",       "cells_max",
-      "guard_hits",       "raster_ms",        "upload_ms",
-      "readback_ms",      "build_ms",         "first_enqueue_ms",
-      "triangles",        "covered_px",       "buffer_bytes_per_px",
-      "peak_gflops",      "peak_gbs"};
+      "shading_ms",  "shading_event_ms", "frame_with_ms",       "frame_without_ms",
+      "ns_per_cell", "speedup_vs_w1",    "cells_min",           "cells_mean",
+      "cells_max",   "guard_hits",       "raster_ms",           "upload_ms",
+      "readback_ms", "build_ms",         "first_enqueue_ms",    "triangles",
+      "covered_px",  "glint_share",      "buffer_bytes_per_px", "peak_gflops",
+      "peak_gbs"};
   return metrics;
 }
 

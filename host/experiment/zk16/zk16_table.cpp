@@ -44,7 +44,8 @@ const TableSpec& zk16Spec() {
             "kernel event time of the same source built for one lane over that for all lanes, same "
             "view and size, measured in turn"},
            {"cells_min", "cells", "fewest cells",
-            "per pixel of a glint material, by a separate counting build, never while timing"},
+            "over pixels of glint materials that some light reaches, by a separate counting build, "
+            "never while timing"},
            {"cells_mean", "cells", "mean cells"},
            {"cells_max", "cells", "most cells"},
            {"guard_hits", "pixels", "pixels cut short",
@@ -59,6 +60,9 @@ const TableSpec& zk16Spec() {
             "first launch of every kernel, in which PoCL compiles it"},
            {"triangles", "triangles", "", "of the scene"},
            {"covered_px", "pixels", "covered pixels", "of the view"},
+           {"glint_share", "1", "share of glints",
+            "pixels of glint materials over those of the image; the paper's times hold what its "
+            "scenes overdraw, these do not: a pixel is shaded once"},
            {"buffer_bytes_per_px", "bytes", "buffers per pixel",
             "device buffers over the pixels of the image"},
            {"peak_gflops", "GFLOP/s", "peak", "measured in the middle of the frames of this view"},
@@ -97,7 +101,10 @@ std::optional<double> zk16PaperMs(std::string_view scene, std::string_view view)
 }
 
 std::string zk16TableText(std::span<const Record> records) {
-  TextTable table({"scene", "triangles", "view", "paper ms", "ours ms", "ratio", "norm.cost",
+  const auto percentText = [](const Record* share) {
+    return share ? fmt::format("{:.0f}%", 100 * share->value.median) : std::string("-");
+  };
+  TextTable table({"scene", "tris", "view", "glints", "paper ms", "ours ms", "ratio", "norm.cost",
                    "cells min/mean/max", "ns/cell", "xW1"});
   std::string last_scene;
   for (const std::string& name : caseNames(records)) {
@@ -108,6 +115,7 @@ std::string zk16TableText(std::span<const Record> records) {
     const bool has_paper = shading != nullptr && shading->paper.has_value();
     table.addRow({scene == last_scene ? "" : scene,
                   scene == last_scene ? "" : one.count("triangles"), parts.rest().text(),
+                  percentText(one.find("glint_share")),
                   has_paper ? fmt::format("{:.1f}", *shading->paper) : "-", one.text("shading_ms"),
                   has_paper ? compactNumber(shading->value.median / *shading->paper) : "-",
                   one.text("normalised_cost"),
