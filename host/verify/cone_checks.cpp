@@ -254,11 +254,11 @@ Finding glints(const CheckContext& context, double half_deg) {
   frame.ray_origin = -raised(70 * kDegree, 0);
   frame.lights = {coneLight(raised(50 * kDegree, 160 * kDegree), half_deg * kDegree)};
   frame.material = simpleMaterial({0.3f, 0.3f}, {0.05f, 0.05f}, 1e7f, 1);
-  frame.pixels.resize(1 << 16);
+  frame.pixels.resize(1 << 18);
   for (std::size_t i = 0; i < frame.pixels.size(); ++i) {
     HandMadePixel& pixel = frame.pixels[i];
     pixel.frame = flatFrame();
-    const std::size_t column = i % 256, row = i / 256;
+    const std::size_t column = i % 512, row = i / 512;
     pixel.footprint.u = fixedCoordinate(0.0123 * static_cast<double>(column));
     pixel.footprint.v = fixedCoordinate(0.0117 * static_cast<double>(row));
     pixel.footprint.duv_dx = {3e-3, 1e-3};

@@ -30,8 +30,8 @@ double areaOf(const TriangleMesh& mesh) {
   return area;
 }
 
-constexpr const char* kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
-constexpr const char* kUvs = "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
+constexpr const char* kObjSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+constexpr const char* kObjUvs = "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
 
 TEST(Obj, NumbersOfEveryForm) {
   const std::pair<const char*, double> numbers[] = {
@@ -52,11 +52,12 @@ TEST(Obj, NumbersOfEveryForm) {
 }
 
 TEST(Obj, LinesEncodingsAndContinuations) {
-  const std::string plain = std::string(kSquare) + kUvs + "f 1/1 2/2 3/3\n";
+  const std::string plain = std::string(kObjSquare) + kObjUvs + "f 1/1 2/2 3/3\n";
   const std::string variants[] = {
-      plain, "\xEF\xBB\xBF" + plain, std::string(kSquare) + kUvs + "f 1/1 \\\n2/2 \\\r\n 3/3 # end",
+      plain, "\xEF\xBB\xBF" + plain,
+      std::string(kObjSquare) + kObjUvs + "f 1/1 \\\n2/2 \\\r\n 3/3 # end",
       "#" + std::string(3, '\xFF') + "\n" + plain,
-      "\tv\t9 9 9\n  v 9 9 8\n" + std::string(kUvs) + kSquare + "f -4/1 -3/2 -2/3\n"};
+      "\tv\t9 9 9\n  v 9 9 8\n" + std::string(kObjUvs) + kObjSquare + "f -4/1 -3/2 -2/3\n"};
   for (const std::string& text : variants) {
     const PartMesh mesh = obj(text);
     ASSERT_EQ(mesh.mesh.positions.size(), 3u) << text;
@@ -74,7 +75,7 @@ TEST(Obj, LinesEncodingsAndContinuations) {
 }
 
 TEST(Obj, FacesOfEveryKind) {
-  const std::string base = std::string(kSquare) + kUvs + "vn 0 0 -2\n";
+  const std::string base = std::string(kObjSquare) + kObjUvs + "vn 0 0 -2\n";
   EXPECT_EQ(obj(base + "f 1/1/1 2/2/1 3/3/1 4/4/1\n").mesh.normals[0], glm::vec3(0, 0, -1));
   EXPECT_EQ(obj(base + "f 1//1 2//1 3//1\n").mesh.normals[0], glm::vec3(0, 0, -1));
   EXPECT_EQ(obj(base + "f -4/-4 -3/-3 -2/-2\n").mesh.uvs[2], glm::dvec2(1, 0));
@@ -89,7 +90,7 @@ TEST(Obj, FacesOfEveryKind) {
 TEST(Obj, FacesBesideTexturedOnesGetUvsOfTheirOwn) {
   // Two quads share an edge; one has uvs.
   const PartMesh mesh = obj("v -1 0 -1\nv -1 0 1\nv 0 0 -1\nv 0 0 1\nv 1 0 -1\nv 1 0 1\n" +
-                            std::string(kUvs) + "f 1/1 2/2 4/4 3/3\nf 3 4 6 5\n");
+                            std::string(kObjUvs) + "f 1/1 2/2 4/4 3/3\nf 3 4 6 5\n");
   for (const glm::uvec3& t : mesh.mesh.triangles) {
     const glm::dvec2 a = mesh.mesh.uvs[t.y] - mesh.mesh.uvs[t.x],
                      b = mesh.mesh.uvs[t.z] - mesh.mesh.uvs[t.x];
@@ -147,7 +148,7 @@ TEST(Obj, SmoothingGroups) {
 }
 
 TEST(Obj, WhatIsWrongIsSaidWithItsLine) {
-  const std::string base = std::string(kSquare) + kUvs;
+  const std::string base = std::string(kObjSquare) + kObjUvs;
   expectMessage(objError(base + "f 1 0 2\n"), {"mesh.obj:9", "index out of range"});
   expectMessage(objError(base + "f 1 -9 2\n"), {"mesh.obj:9", "index out of range"});
   expectMessage(objError(base + "f 1 two 3\n"), {"mesh.obj:9", "'two'"});

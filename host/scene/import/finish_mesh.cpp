@@ -9,6 +9,7 @@
 
 #include "host/core/error.h"
 #include "host/core/free_memory.h"
+#include "host/scene/import/mesh_source.h"
 #include "host/scene/import/project_uvs.h"
 #include "host/scene/import/smooth_normals.h"
 #include "host/scene/import/vertex_table.h"
@@ -16,7 +17,6 @@
 namespace glintmark {
 namespace {
 
-constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 // A mesh this many times as far from the origin as it is long loses detail in floats.
 constexpr double kFarAway = 64;
 // Longest sides that need no scaling.
@@ -103,7 +103,7 @@ class MeshFinisher {
   /// One vertex for all that are alike, in the order in which triangles name them.
   void joinVertices() {
     const std::size_t count = source_.positions.size();
-    std::vector<std::uint32_t> to(count, kNone);
+    std::vector<std::uint32_t> to(count, kNoIndex);
     {
       VertexTable table(count);
       const bool grouped = !source_.smoothing.empty();
@@ -127,7 +127,7 @@ class MeshFinisher {
     std::uint32_t next = 0;
     for (glm::uvec3& t : source_.triangles)
       for (int k = 0; k < 3; ++k) {
-        if (to[t[k]] == kNone) to[t[k]] = next++;
+        if (to[t[k]] == kNoIndex) to[t[k]] = next++;
         t[k] = to[t[k]];
       }
     permute(source_.positions, to, next);
@@ -141,7 +141,7 @@ class MeshFinisher {
                       std::size_t count) {
     std::vector<T> moved(count);
     for (std::size_t i = 0; i < to.size(); ++i)
-      if (to[i] != kNone) moved[to[i]] = values[i];
+      if (to[i] != kNoIndex) moved[to[i]] = values[i];
     values = std::move(moved);
   }
 

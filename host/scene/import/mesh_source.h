@@ -13,6 +13,8 @@ namespace glintmark {
 
 /// Stands for the uv of a vertex that has none.
 inline constexpr glm::dvec2 kNoUv{std::numeric_limits<double>::max()};
+/// Stands for the index of what there is none of.
+inline constexpr std::uint32_t kNoIndex = 0xFFFFFFFFu;
 
 /// Arrays per vertex have one length. Positions are doubles, since files place meshes far from the
 /// origin. uvs lie as maps do: row 0 of a picture at v = 0.

@@ -5,10 +5,11 @@
 #include <array>
 #include <cmath>
 
+#include "host/scene/import/mesh_source.h"
+
 namespace glintmark {
 namespace {
 
-constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 // uv units that the longest side of a mesh spans where its uvs have no area: a thousandth of it
 // holds so many microdetails of any density that they cannot be told from their mean.
 constexpr double kDenseSpan_uv = 1 << 20;
@@ -88,8 +89,8 @@ class UvProjector {
   void place(std::uint32_t& vertex, int axis, double scale, int way) {
     std::uint32_t v = vertex;
     while (ways_[v] != kUntouched && ways_[v] != way) {
-      if (next_.size() <= v) next_.resize(source_.positions.size(), kNone);
-      if (next_[v] == kNone) {
+      if (next_.size() <= v) next_.resize(source_.positions.size(), kNoIndex);
+      if (next_[v] == kNoIndex) {
         const auto copy = static_cast<std::uint32_t>(source_.positions.size());
         next_[v] = copy;
         source_.positions.push_back(glm::dvec3(source_.positions[v]));
@@ -98,7 +99,7 @@ class UvProjector {
         if (!source_.smoothing.empty())
           source_.smoothing.push_back(std::uint32_t{source_.smoothing[v]});
         ways_.push_back(kUntouched);
-        next_.push_back(kNone);
+        next_.push_back(kNoIndex);
       }
       v = next_[v];
     }

@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "host/core/error.h"
+#include "host/scene/import/mesh_source.h"
 #include "host/scene/import/text_scanner.h"
 #include "host/scene/import/triangulate.h"
 #include "host/scene/import/vertex_table.h"
@@ -16,14 +17,13 @@
 namespace glintmark {
 namespace {
 
-constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 constexpr std::uint32_t kFlat = 0;  // smoothing group 0; faces before any `s` are in group 1
 constexpr std::size_t kMostVertices = 0xFFFFFFF0u;
 
 /// A vertex of the mesh: what of each list a corner names.
 struct Corner {
-  std::uint32_t position = 0, uv = kNone, normal = kNone;
-  std::uint32_t group = 1;  // smoothing group; of flat faces: kNone less the face's number
+  std::uint32_t position = 0, uv = kNoIndex, normal = kNoIndex;
+  std::uint32_t group = 1;  // smoothing group; of flat faces: kNoIndex less the face's number
 
   bool operator==(const Corner&) const = default;
 };
@@ -159,16 +159,16 @@ class ObjReader {
     }
     bool has_uvs = true, has_normals = true;
     for (const Corner& corner : face_) {
-      has_uvs = has_uvs && corner.uv != kNone;
-      has_normals = has_normals && corner.normal != kNone;
+      has_uvs = has_uvs && corner.uv != kNoIndex;
+      has_normals = has_normals && corner.normal != kNoIndex;
     }
     ++faces_;
     corners_of_face_.clear();
     flat_.clear();
     for (Corner& corner : face_) {
-      if (!has_uvs) corner.uv = kNone;
-      if (!has_normals) corner.normal = kNone;
-      corner.group = has_normals ? 1 : group_ == kFlat ? kNone - faces_ : group_;
+      if (!has_uvs) corner.uv = kNoIndex;
+      if (!has_normals) corner.normal = kNoIndex;
+      corner.group = has_normals ? 1 : group_ == kFlat ? kNoIndex - faces_ : group_;
       corners_of_face_.push_back(vertexOf(corner));
       flat_.push_back(corner.position < positions_.size() ? positions_[corner.position]
                                                           : glm::dvec3(0));
@@ -184,13 +184,14 @@ class ObjReader {
 
   std::uint32_t vertexOf(const Corner& wanted) {
     last_position_ = std::max(last_position_, wanted.position);
-    if (wanted.uv != kNone && (last_uv_ == kNone || wanted.uv > last_uv_)) last_uv_ = wanted.uv;
-    if (wanted.normal != kNone && (last_normal_ == kNone || wanted.normal > last_normal_))
+    if (wanted.uv != kNoIndex && (last_uv_ == kNoIndex || wanted.uv > last_uv_))
+      last_uv_ = wanted.uv;
+    if (wanted.normal != kNoIndex && (last_normal_ == kNoIndex || wanted.normal > last_normal_))
       last_normal_ = wanted.normal;
     if (corners_.size() >= kMostVertices) fail("the mesh has more vertices than 4294967279");
     if (slots_.size() < corners_.size() + corners_.size() / 2 + 1) growTable();
     std::uint32_t& slot = slots_[slotOf(wanted)];
-    if (slot == kNone) {
+    if (slot == kNoIndex) {
       slot = static_cast<std::uint32_t>(corners_.size());
       corners_.push_back(wanted);
     }
@@ -204,19 +205,19 @@ class ObjReader {
                   static_cast<std::uint64_t>(wanted.normal) << 32 | wanted.group);
     const std::size_t mask = slots_.size() - 1;
     std::size_t at = hash & mask;
-    while (slots_[at] != kNone && corners_[slots_[at]] != wanted) at = (at + 1) & mask;
+    while (slots_[at] != kNoIndex && corners_[slots_[at]] != wanted) at = (at + 1) & mask;
     return at;
   }
 
   void growTable() {
-    slots_.assign(std::max<std::size_t>(2 * slots_.size(), 1024), kNone);
+    slots_.assign(std::max<std::size_t>(2 * slots_.size(), 1024), kNoIndex);
     for (std::size_t i = 0; i < corners_.size(); ++i)
       slots_[slotOf(corners_[i])] = static_cast<std::uint32_t>(i);
   }
 
   void checkReferences() const {
     const auto check = [&](std::uint32_t last, std::size_t count, const char* what) {
-      if (last == kNone || last < count) return;
+      if (last == kNoIndex || last < count) return;
       throw Error(fmt::format("{}: a face names {} {}, an index out of range: the file has {}",
                               source_, what, last + std::size_t{1}, count));
     };
@@ -234,8 +235,8 @@ class ObjReader {
     out_.smoothing.reserve(count);
     for (const Corner& corner : corners_) {
       out_.positions.push_back(positions_[corner.position]);
-      out_.normals.push_back(corner.normal != kNone ? normals_[corner.normal] : glm::vec3(0));
-      out_.uvs.push_back(corner.uv != kNone ? uvs_[corner.uv] : kNoUv);
+      out_.normals.push_back(corner.normal != kNoIndex ? normals_[corner.normal] : glm::vec3(0));
+      out_.uvs.push_back(corner.uv != kNoIndex ? uvs_[corner.uv] : kNoUv);
       out_.smoothing.push_back(corner.group);
     }
   }
@@ -252,7 +253,7 @@ class ObjReader {
   std::vector<glm::vec3> normals_;
   std::vector<std::uint32_t> slots_;  // hash table of corners_
   std::vector<Corner> corners_;
-  std::uint32_t last_position_ = 0, last_uv_ = kNone, last_normal_ = kNone;
+  std::uint32_t last_position_ = 0, last_uv_ = kNoIndex, last_normal_ = kNoIndex;
   // Of one face, kept for their memory.
   std::vector<Corner> face_;
   std::vector<std::uint32_t> corners_of_face_;

@@ -6,12 +6,11 @@
 #include <bit>
 #include <cmath>
 
+#include "host/scene/import/mesh_source.h"
 #include "host/scene/import/vertex_table.h"
 
 namespace glintmark {
 namespace {
-
-constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
 class NormalMaker {
  public:
@@ -24,7 +23,7 @@ class NormalMaker {
     for (const glm::uvec3& t : source_.triangles) addTriangle(t, sums);
     std::size_t left = 0;
     for (std::size_t v = 0; v < places_.size(); ++v) {
-      if (places_[v] == kNone) continue;
+      if (places_[v] == kNoIndex) continue;
       const double length = glm::length(sums[places_[v]]);
       left += length == 0;
       source_.normals[v] = length > 0 ? sums[places_[v]] / length : glm::dvec3(0, 1, 0);
@@ -36,7 +35,7 @@ class NormalMaker {
   void findPlaces() {
     const std::size_t count = source_.positions.size();
     const bool grouped = !source_.smoothing.empty();
-    places_.assign(count, kNone);
+    places_.assign(count, kNoIndex);
     VertexTable table(count);
     const auto hash = [&](std::uint32_t v) {
       std::uint64_t value = grouped ? source_.smoothing[v] : 0;
@@ -54,7 +53,7 @@ class NormalMaker {
   }
 
   void addTriangle(const glm::uvec3& t, std::vector<glm::dvec3>& sums) const {
-    if (places_[t.x] == kNone && places_[t.y] == kNone && places_[t.z] == kNone) return;
+    if (places_[t.x] == kNoIndex && places_[t.y] == kNoIndex && places_[t.z] == kNoIndex) return;
     const glm::dvec3 corners[3] = {source_.positions[t.x], source_.positions[t.y],
                                    source_.positions[t.z]};
     glm::dvec3 edges[3];
@@ -70,7 +69,7 @@ class NormalMaker {
     if (!(length > 0)) return;
     for (int k = 0; k < 3; ++k) {
       const std::uint32_t place = places_[t[k]];
-      if (place == kNone) continue;
+      if (place == kNoIndex) continue;
       const glm::dvec3 a = edges[k], b = -edges[(k + 2) % 3];
       const double angle = std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
       sums[place] += area * (angle / length);
