@@ -27,7 +27,7 @@ TEST_F(Report, OnePageWithThePicturesOfTheFolder) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(result.out.find("1 figures and 1 pictures"), std::string::npos) << result.out;
   const std::string html = readFile(page);
-  EXPECT_NE(html.find("<a href=\"results.json\">"), std::string::npos);
+  EXPECT_NE(html.find("<a href=\"./results.json\">"), std::string::npos);
   EXPECT_NE(html.find("cells_snow_steep.png"), std::string::npos);
 }
 
