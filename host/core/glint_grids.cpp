@@ -10,8 +10,8 @@ using std::floor, std::sqrt;
 
 }  // namespace
 
-MaterialParams withGlintGrids(MaterialParams params, bool grooves) {
-  setGlintGrids(&params.glints, params.surface.alpha_g, grooves ? 1 : 0);
+MaterialParams withGlintGrids(MaterialParams params) {
+  setGlintGrids(&params.glints, params.surface.alpha_g);
   return params;
 }
 

@@ -5,7 +5,6 @@
 namespace glintmark {
 
 /// `params` as a launch reads them: gamma and finest level of their grids set from the rest.
-/// `grooves`: microdetails run along u.
-MaterialParams withGlintGrids(MaterialParams params, bool grooves);
+MaterialParams withGlintGrids(MaterialParams params);
 
 }  // namespace glintmark

@@ -14,7 +14,7 @@ Buffer uploadMaterials(Device& device, const Scene& scene, const ShadingOptions&
                        int lanes) {
   std::vector<MaterialParams> materials;
   for (const Material& material : scene.materials) {
-    materials.push_back(withGlintGrids(material.params, material.has_grooves));
+    materials.push_back(withGlintGrids(material.params));
     materials.back().surface.effects = effectBits(configFor(material, scene, options, lanes));
   }
   return upload(device, materials, BufferPurpose::kMaterials);

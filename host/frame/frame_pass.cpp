@@ -102,8 +102,7 @@ KernelConfig FramePass::configOf(const Material& material) const {
 
 Buffer FramePass::materialBuffer(const Material& material, const KernelConfig& config) {
   if (!config.all_materials)
-    return upload(device_, std::vector{withGlintGrids(material.params, material.has_grooves)},
-                  BufferPurpose::kMaterials);
+    return upload(device_, std::vector{withGlintGrids(material.params)}, BufferPurpose::kMaterials);
   return resources_
       .kept<AllMaterials>(
           [&] { return AllMaterials{uploadMaterials(device_, scene_, options_, config.width)}; })

@@ -76,7 +76,7 @@ ShadedPixels shadePixels(KernelBench& bench, const HandMadeFrame& frame, KernelC
   ShadeArguments arguments(
       {.planes = probeData(bench, planeWords(frame, config.planes, stride)),
        .frame = probeData(bench, std::vector{paramsOf(frame, stride)}),
-       .material = probeData(bench, std::vector{withGlintGrids(frame.material, config.groove)}),
+       .material = probeData(bench, std::vector{withGlintGrids(frame.material)}),
        .lights = probeData(bench, prepareLights(frame.lights))});
   if (frame.scatter) arguments.add("scatter", probeData(bench, std::vector{*frame.scatter}));
   if (config.multiscatter != Multiscatter::kOff) {

@@ -34,15 +34,14 @@ std::vector<std::vector<glm::vec3>> methodRatios(Device& device, ProgramCache& c
   std::size_t stride = 0;
   for (const PixelLattice& lattice : lattices) stride += pixelStride(lattice);
   Buffer ratios(device, 3 * stride * 4, BufferPurpose::kMicrodetails, "ratios of a glint method");
-  const KernelArg arguments[] = {
-      upload(device, allWords(lattices, stride), BufferPurpose::kMicrodetails,
-             "pixels of lattices"),
-      upload(device, std::vector{withGlintGrids(material, config.groove)},
-             BufferPurpose::kMicrodetails, "a material"),
-      ratios,
-      static_cast<float>(half_slope.x),
-      static_cast<float>(half_slope.y),
-      static_cast<std::uint32_t>(stride)};
+  const KernelArg arguments[] = {upload(device, allWords(lattices, stride),
+                                        BufferPurpose::kMicrodetails, "pixels of lattices"),
+                                 upload(device, std::vector{withGlintGrids(material)},
+                                        BufferPurpose::kMicrodetails, "a material"),
+                                 ratios,
+                                 static_cast<float>(half_slope.x),
+                                 static_cast<float>(half_slope.y),
+                                 static_cast<std::uint32_t>(stride)};
   cache.get("microdetail/method_ratios.cl", config)
       .kernel("methodRatios")
       .launch(arguments, stride / static_cast<std::size_t>(config.width), kRatioGroup);

@@ -51,9 +51,8 @@ void split(FixedCoordinate c, std::int32_t offset, double stretch, int level, st
 
 }  // namespace
 
-GridRules gridRules(const glm::dvec2& alpha_g, const glm::dvec2& alpha_l, double density,
-                    bool groove) {
-  const glm::dvec2 m = mesoRoughness(alpha_g, groove ? glm::dvec2(0, alpha_l.y) : alpha_l);
+GridRules gridRules(const glm::dvec2& alpha_g, const glm::dvec2& alpha_l, double density) {
+  const glm::dvec2 m = mesoRoughness(alpha_g, alpha_l);
   const auto rounded = [](double gamma) {
     return std::clamp(std::round(gamma * kStretchUnit) / kStretchUnit, kLeastStretch, 1.0);
   };

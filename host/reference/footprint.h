@@ -26,8 +26,7 @@ struct GridRules {
 /// In uv; derivatives that are no numbers count as 0.
 double footprintArea(const PixelFootprint& footprint);
 /// Step 1 of "The draws"; `density`: microdetails per unit uv area.
-GridRules gridRules(const glm::dvec2& alpha_g, const glm::dvec2& alpha_l, double density,
-                    bool groove);
+GridRules gridRules(const glm::dvec2& alpha_g, const glm::dvec2& alpha_l, double density);
 
 /// One visited cell of one grid.
 struct Cell {

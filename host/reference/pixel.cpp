@@ -123,7 +123,7 @@ HalfVectorIndex halfVectorIndex(const glm::dvec3& half, const Glints& glints) {
 
 PixelResult evaluatePixel(const SurfacePixel& pixel, const Glints& glints,
                           std::span<const PointLight> lights, const GlintMethodOptions& options) {
-  const GridRules rules = gridRules(glints.alpha_g, glints.alpha_l, glints.density, glints.groove);
+  const GridRules rules = gridRules(glints.alpha_g, glints.alpha_l, glints.density);
   const glm::dvec2 stretch = rules.stretch;
   const bool exact = options.method == GlintRule::kExact;
   const std::vector<GridVisit> grids =

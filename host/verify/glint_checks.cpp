@@ -205,21 +205,38 @@ Finding sameGlints(const CheckContext& context, const WidthCase& c) {
   return finding;
 }
 
-// Microdetails of grooves have no roughness along u: it changes no bit.
-Finding grooveRoughnessAlong(const CheckContext& context) {
-  const DrawCase c = {"", kZk16, {.1f, .5f}, {.01f, .02f}, 1e6f, 1, true, 16, kUsual};
-  DrawCase other = c;
-  other.alpha_l.x = .09f;
-  const ShadedPixels one = drawPixels(context, c, drawFrame(c));
-  const ShadedPixels two = drawPixels(context, c, drawFrame(other));
-  Finding finding(0);
-  double different = 0, lit = 0;
-  for (std::size_t i = 0; i < one.radiance.size(); ++i) {
-    different += one.radiance[i] != two.radiance[i] || one.cells[i] != two.cells[i];
-    lit += one.radiance[i].x > 0;
+// The nearer the roughness of a groove along u is to the surface's, the longer it is: how much of
+// the contrast is left between pixels 8 apart along u.
+double changeAlong(const CheckContext& context, float alpha_lu) {
+  const DrawCase c = {"", kZk16, {.1f, .5f}, {alpha_lu, .05f}, 1e6f, 0, true, 16, kUsual};
+  HandMadeFrame frame = drawFrame(c);
+  frame.ray_origin = {0, 0, -1};
+  frame.ray_dx = frame.ray_dy = glm::dvec3(0);
+  const double side = 1e-3;
+  for (std::size_t i = 0; i < frame.pixels.size(); ++i) {
+    HandMadePixel& pixel = frame.pixels[i];
+    const double pair = static_cast<double>(i / 2);
+    pixel.frame = flatFrame();
+    pixel.footprint.u = fixedCoordinate(0.0917 * pair + (i % 2 == 0 ? 0 : 8 * side));
+    pixel.footprint.v = fixedCoordinate(0.0371 * pair);
+    pixel.footprint.duv_dx = {side, 0};
+    pixel.footprint.duv_dy = {0, side};
   }
-  finding.add(different);
-  finding.require(lit > 0, "no pixel is lit");
+  const ShadedPixels shaded = drawPixels(context, c, frame);
+  double change = 0, contrast = 0, mean = 0;
+  for (const glm::vec3& radiance : shaded.radiance) mean += radiance.x;
+  mean /= static_cast<double>(shaded.radiance.size());
+  for (std::size_t i = 0; i + 1 < shaded.radiance.size(); i += 2) {
+    change += std::abs(shaded.radiance[i].x - shaded.radiance[i + 1].x);
+    contrast += std::abs(shaded.radiance[i].x - mean);
+  }
+  return change / contrast;
+}
+
+Finding grooveLength(const CheckContext& context) {
+  Finding finding(0.1);
+  finding.add(changeAlong(context, .1f));
+  finding.require(changeAlong(context, .01f) > 0.8, "short grooves do not end within 8 pixels");
   return finding;
 }
 
@@ -233,7 +250,7 @@ std::vector<Check> glintChecks() {
   checks.push_back({"cells/footprint", "error in units of its bound", footprintLevels});
   checks.push_back({"cells/zk16_range", "pixels outside 8 to 64 cells", cellRange});
   checks.push_back(
-      {"cells/groove_roughness_along", "pixels that it changes", grooveRoughnessAlong});
+      {"cells/groove_length", "change along a long groove, of the contrast", grooveLength});
   for (const WidthCase& c : kWidthCases)
     checks.push_back({std::string("cells/same_bits_") + c.name,
                       "pixels that differ from one lane's",

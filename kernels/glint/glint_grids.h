@@ -24,10 +24,10 @@ static inline float glintGamma(double meso_sq, double other_meso_sq) {
   return (float)((steps < 4.0 ? 4.0 : steps > unit ? unit : steps) / unit);
 }
 
-// Sets gamma and finest_level from the other members and the surface's roughness. `grooves`:
-// microdetails run along u and have no roughness of their own there.
-static inline void setGlintGrids(GlintMaterial* glints, float2 alpha_g, int grooves) {
-  const double alpha_lu = grooves ? 0.0 : glints->alpha_l.x, alpha_lv = glints->alpha_l.y;
+// Sets gamma and finest_level from the other members and the surface's roughness. Grooves, which run
+// along u, are the longer the nearer their roughness along u is to the surface's.
+static inline void setGlintGrids(GlintMaterial* glints, float2 alpha_g) {
+  const double alpha_lu = glints->alpha_l.x, alpha_lv = glints->alpha_l.y;
   const double u = (double)alpha_g.x * alpha_g.x - alpha_lu * alpha_lu;
   const double v = (double)alpha_g.y * alpha_g.y - alpha_lv * alpha_lv;
   const double meso_u = u < 1e-12 ? 1e-12 : u, meso_v = v < 1e-12 ? 1e-12 : v;

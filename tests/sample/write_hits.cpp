@@ -73,7 +73,7 @@ void write(const std::string& method, const std::string& path) {
   header.material_bytes = sizeof(MaterialParams);
   const float irradiance[] = {light.power.x, light.power.y, light.power.z, 0};
   std::copy(std::begin(irradiance), std::end(irradiance), header.irradiance);
-  const MaterialParams material = withGlintGrids(scene.materials[0].params, false);
+  const MaterialParams material = withGlintGrids(scene.materials[0].params);
   std::memcpy(header.material, &material, sizeof header.material);
 
   std::ofstream file(path, std::ios::binary);
