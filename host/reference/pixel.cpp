@@ -110,6 +110,21 @@ double distributedRatio(std::span<const GridVisit> grids, double microdetails,
   return sum;
 }
 
+// Microdetails that method distributed shares out. Grooves are as long as a stretched cell: those
+// that pass through a pixel are more than begin in it.
+double sharedMicrodetails(const PixelFootprint& footprint, std::span<const GridVisit> grids,
+                          const Glints& glints, const glm::dvec2& stretch) {
+  double count = glints.density * footprintArea(footprint);
+  if (glints.groove) {
+    const double cell = std::exp2(grids[0].level + grids[1].mip_weight);
+    const GridFootprint grid = inGrid(footprint, stretch, 0);
+    const glm::dvec2 extent = glm::max(glm::abs(grid.edge_x), glm::abs(grid.edge_y));
+    for (int axis = 0; axis < 2; ++axis)
+      count /= std::clamp(extent[axis] / cell, stretch[axis], 1.0);
+  }
+  return std::clamp(count, 1.0, mostExpected(glints.size_variation));
+}
+
 }  // namespace
 
 HalfVectorIndex halfVectorIndex(const glm::dvec3& half, const Glints& glints) {
@@ -142,8 +157,7 @@ PixelResult evaluatePixel(const SurfacePixel& pixel, const Glints& glints,
     const LightDraw draw = {p, half, glints, stretch, exact};
     const bool distributed = options.method == GlintRule::kDistributed;
     if (distributed) {
-      const double microdetails = std::clamp(glints.density * footprintArea(pixel.footprint), 1.0,
-                                             mostExpected(glints.size_variation));
+      const double microdetails = sharedMicrodetails(pixel.footprint, grids, glints, stretch);
       result.radiance += smooth * distributedRatio(grids, microdetails, draw, result.rounding);
     }
     for (const GridVisit& grid : grids) {
