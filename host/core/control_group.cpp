@@ -30,7 +30,8 @@ std::vector<fs::path> groupFolders(const fs::path& root, const std::string& cont
   for (std::string line; std::getline(stream, line);) {
     const std::size_t first = line.find(':'), second = line.find(':', first + 1);
     if (second == std::string::npos) continue;
-    const std::string names = "," + line.substr(first + 1, second - first - 1) + ",";
+    std::string names(1, ',');
+    names.append(line, first + 1, second - first - 1).push_back(',');
     const bool matches =
         controller.empty() ? names == ",," : names.find("," + controller + ",") != names.npos;
     if (!matches) continue;
