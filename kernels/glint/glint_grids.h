@@ -24,8 +24,8 @@ static inline float glintGamma(double meso_sq, double other_meso_sq) {
   return (float)((steps < 4.0 ? 4.0 : steps > unit ? unit : steps) / unit);
 }
 
-// Sets gamma and finest_level from the other members and the surface's roughness. Grooves, which run
-// along u, are the longer the nearer their roughness along u is to the surface's.
+// Sets gamma and finest_level from the other members and the surface's roughness. Grooves, which
+// run along u, are the longer the nearer their roughness along u is to the surface's.
 static inline void setGlintGrids(GlintMaterial* glints, float2 alpha_g) {
   const double alpha_lu = glints->alpha_l.x, alpha_lv = glints->alpha_l.y;
   const double u = (double)alpha_g.x * alpha_g.x - alpha_lu * alpha_lu;
