@@ -14,6 +14,7 @@
 
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
+#include "host/report/record/record_log.h"
 #include "host/report/record/records.h"
 #include "host/verify/check_result_json.h"
 
@@ -57,18 +58,12 @@ std::string junitCase(const CheckResult& r) {
 }
 
 void requireSameSetup(const RunInfo& old_run, const RunInfo& run, const std::string& file) {
-  const auto require = [&](const char* what, const std::string& before, const std::string& now) {
-    if (before == now) return;
-    throw Error(
-        fmt::format("cannot resume {}: its checks ran with {} '{}', not '{}'; run without --resume "
-                    "to start over",
-                    file, what, before, now));
-  };
-  require("program version", old_run.git, run.git);
-  require("device", old_run.device, run.device);
-  require("driver", old_run.driver, run.driver);
-  require("platform", old_run.platform, run.platform);
-  require("width", std::to_string(old_run.width), std::to_string(run.width));
+  requireSharedFacts(file, "its checks ran",
+                     {{"program version", old_run.git, run.git},
+                      {"device", old_run.device, run.device},
+                      {"driver", old_run.driver, run.driver},
+                      {"platform", old_run.platform, run.platform},
+                      {"width", std::to_string(old_run.width), std::to_string(run.width)}});
 }
 
 // The whole lines; the last may have been cut off.

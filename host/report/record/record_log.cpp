@@ -19,18 +19,12 @@ namespace glintmark {
 namespace {
 
 void requireSameSetup(const RunInfo& old_run, const RunInfo& run, const std::string& path) {
-  const auto require = [&](const char* what, const std::string& before, const std::string& now) {
-    if (before == now) return;
-    throw Error(
-        fmt::format("cannot resume {}: it was measured with {} '{}', not '{}'; run without "
-                    "--resume to start over",
-                    path, what, before, now));
-  };
-  require("program version", old_run.git, run.git);
-  require("device", old_run.device, run.device);
-  require("driver", old_run.driver, run.driver);
-  require("kernels, tables, scenes and meshes", old_run.inputs, run.inputs);
-  require("width", std::to_string(old_run.width), std::to_string(run.width));
+  requireSharedFacts(path, "it was measured",
+                     {{"program version", old_run.git, run.git},
+                      {"device", old_run.device, run.device},
+                      {"driver", old_run.driver, run.driver},
+                      {"kernels, tables, scenes and meshes", old_run.inputs, run.inputs},
+                      {"width", std::to_string(old_run.width), std::to_string(run.width)}});
 }
 
 // The last field of a line: "sum", of all that stands before it.
@@ -54,6 +48,16 @@ bool takeChecksum(std::string& line, const std::string& source) {
 }
 
 }  // namespace
+
+void requireSharedFacts(const std::string& file, const char* made,
+                        std::initializer_list<SharedFact> facts) {
+  for (const SharedFact& fact : facts) {
+    if (fact.before == fact.now) continue;
+    throw Error(fmt::format(
+        "cannot resume {}: {} with {} '{}', not '{}'; run without --resume to start over", file,
+        made, fact.name, fact.before, fact.now));
+  }
+}
 
 std::string withChecksum(std::string line) {
   line.pop_back();

@@ -2,6 +2,7 @@
 // measured.
 #pragma once
 #include <filesystem>
+#include <initializer_list>
 #include <map>
 #include <optional>
 #include <span>
@@ -11,6 +12,16 @@
 #include "host/report/record/record.h"
 
 namespace glintmark {
+
+/// A fact of a run that whoever resumes it must share: its name, as it was, and as it is.
+struct SharedFact {
+  const char* name;
+  const std::string &before, &now;
+};
+/// Throws Error naming the first of `facts` that differs; `made`: what was done with it, "it was
+/// measured" say.
+void requireSharedFacts(const std::string& file, const char* made,
+                        std::initializer_list<SharedFact> facts);
 
 /// What a log holds up to the end of its last whole batch.
 struct LogContent {
