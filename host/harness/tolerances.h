@@ -101,6 +101,18 @@ inline constexpr double kMaskingTolerance = 7e-3;
 /// Brightness below which a difference does not show: the peak of the base lobe is above 1.
 inline constexpr double kDark = 1e-4;
 
+/// Directions in a pixel's frame: 8 bytes hold it to 4e-6 rad, and float adds some 1e-6.
+inline constexpr double kFrameError = 1e-5;
+/// Energy that metals get back, of all: a polynomial of the eighth degree, and the albedo of the
+/// rational fit of Smith's Lambda, good to 0.35 % of G1.
+inline constexpr double kCompensationTolerance = 6e-3;
+
+/// A footprint that holds a whole map, relative. One tilted normal: rounding and the rational fit
+/// of Smith's Lambda. Four that a mixture keeps apart: those, and what EM's shared normals leave. A
+/// Gaussian in place of four normals a third of the base lobe apart: its fourth moment. Phong peaks
+/// in place of Beckmann lobes: cos^n falls off later.
+inline constexpr double kTiltedLobe = 0.005, kGaussianOfNormals = 0.04, kPhongPeaks = 0.12;
+
 /// Multiple scattering, relative to a Lambertian lobe's radiance: single precision and the
 /// polynomials in a cosine.
 inline constexpr double kScatterTolerance = 5e-4;

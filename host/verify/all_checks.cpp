@@ -7,9 +7,10 @@ namespace glintmark {
 std::vector<Check> allChecks() {
   std::vector<Check> all;
   for (const auto group :
-       {deviceChecks, mathsChecks, seedChecks, binomialChecks, glintChecks, energyChecks,
-        zoomChecks, coneChecks, hardPixelChecks, polygonChecks, areaLightChecks, textureChecks,
-        lobeChecks, scatterChecks, frameChecks, heightFieldChecks}) {
+       {deviceChecks, mathsChecks,        seedChecks,    binomialChecks,  pixelChecks,
+        glintChecks,  colourChecks,       shadingChecks, energyChecks,    zoomChecks,
+        coneChecks,   hardPixelChecks,    polygonChecks, areaLightChecks, textureChecks,
+        lobeChecks,   normalMethodChecks, scatterChecks, frameChecks,     heightFieldChecks}) {
     std::vector<Check> checks = group();
     std::move(checks.begin(), checks.end(), std::back_inserter(all));
   }

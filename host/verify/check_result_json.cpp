@@ -7,10 +7,10 @@
 namespace glintmark {
 
 nlohmann::ordered_json checkResultJson(const CheckResult& r) {
-  nlohmann::ordered_json json = {{"name", r.name},      {"verdict", verdictName(r.verdict)},
-                                 {"worst", nullptr},    {"bound", r.bound},
-                                 {"of", r.measure},     {"note", r.note},
-                                 {"seconds", r.seconds},  {"judged", r.judged}};
+  nlohmann::ordered_json json = {{"name", r.name},       {"verdict", verdictName(r.verdict)},
+                                 {"worst", nullptr},     {"bound", r.bound},
+                                 {"of", r.measure},      {"note", r.note},
+                                 {"seconds", r.seconds}, {"judged", r.judged}};
   if (std::isfinite(r.worst)) json["worst"] = r.worst;
   return json;
 }

@@ -24,8 +24,8 @@ void requireKnownKeys(const toml::table& table, const std::string& file) {
                               key.str()));
   for (const char* key : kTextKeys)
     if (!table[key].is_string())
-      throw Error(fmt::format("{}:{}: a mutant needs the text '{}'", file,
-                              table.source().begin.line, key));
+      throw Error(
+          fmt::format("{}:{}: a mutant needs the text '{}'", file, table.source().begin.line, key));
 }
 
 Mutant mutantOf(const toml::table& table, const std::string& file) {

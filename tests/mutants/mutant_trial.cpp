@@ -9,8 +9,8 @@ namespace glintmark {
 namespace fs = std::filesystem;
 
 std::vector<std::string> trialArguments(const std::string& checks, const fs::path& json) {
-  std::vector<std::string> arguments = {"verify",    "--quiet", "--json", json.string(),
-                                        "--timeout", "300"};
+  std::vector<std::string> arguments = {"verify",      "--quiet",   "--json",
+                                        json.string(), "--timeout", "300"};
   if (!checks.empty()) arguments.insert(arguments.end(), {"--only", checks});
   return arguments;
 }

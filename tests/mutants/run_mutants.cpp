@@ -54,10 +54,10 @@ Options parseOptions(const std::vector<std::string>& words) {
       options.jobs = std::atoi(words[++i].c_str());
       if (options.jobs < 1) throw Error("--jobs takes a number from 1 on");
     } else {
-      throw Error(
-          fmt::format("'{}' is none of --jobs N, --only REGEX (names of mutants), --sample, --checks "
-                      "(no others but those that the list names)",
-                      words[i]));
+      throw Error(fmt::format(
+          "'{}' is none of --jobs N, --only REGEX (names of mutants), --sample, --checks "
+          "(no others but those that the list names)",
+          words[i]));
     }
   }
   return options;

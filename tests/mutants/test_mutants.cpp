@@ -35,9 +35,9 @@ TEST(MutantList, IsLongAndBreaksEveryFolderOfKernels) {
     const std::string folder = entry.path().filename().string() + "/";
     // Its own kernels are tests/sample's; probes call what stands elsewhere.
     if (!entry.is_directory() || folder == "sample/" || folder == "probes/") continue;
-    EXPECT_TRUE(std::ranges::any_of(
-        mutants, [&](const Mutant& m) { return m.file.starts_with(folder); }))
-        << folder;
+    EXPECT_TRUE(std::ranges::any_of(mutants, [&](const Mutant& m) {
+      return m.file.starts_with(folder);
+    })) << folder;
   }
 }
 
