@@ -101,6 +101,16 @@ inline constexpr double kMaskingTolerance = 7e-3;
 /// Brightness below which a difference does not show: the peak of the base lobe is above 1.
 inline constexpr double kDark = 1e-4;
 
+/// Sine, cosine and angle in turns, as kernels/wide/wide_trig.clh states them.
+inline constexpr double kSineError = 3e-7, kAngleError = 1e-6;
+/// Draws one in ten thousand by the expansion of second order: the third is 0.02 of a microdetail
+/// there, and draws that are whole numbers differ by 1 in a few of a hundred.
+inline constexpr double kExpandedTail = 0.1;
+/// What is left of lobes that merge within 3 % of the base lobe's variance each.
+inline constexpr double kMergedLobes = 0.02;
+/// Schlick's term of mapped cones is asked for where it is at least this share of the lobe.
+inline constexpr double kDarkSchlick = 1e-3;
+
 /// Directions in a pixel's frame: 8 bytes hold it to 4e-6 rad, and float adds some 1e-6.
 inline constexpr double kFrameError = 1e-5;
 /// Energy that metals get back, of all: a polynomial of the eighth degree, and the albedo of the

@@ -78,7 +78,8 @@ struct MethodCase {
 // whose variance is the same along both axes; one tilted normal.
 const std::vector<glm::vec2> kApart = {
     {0.35f, 0.3f}, {-0.4f, 0.25f}, {0.3f, -0.35f}, {-0.3f, -0.3f}};
-const std::vector<glm::vec2> kDiagonal = {{0.22f, 0.02f}, {0.08f, -0.12f}, {0.18f, -0.02f}, {0.12f, -0.08f}};
+const std::vector<glm::vec2> kDiagonal = {
+    {0.22f, 0.02f}, {0.08f, -0.12f}, {0.18f, -0.02f}, {0.12f, -0.08f}};
 const std::vector<glm::vec2> kSquare = {{0.1f, 0.1f}, {-0.1f, 0.1f}, {0.1f, -0.1f}, {-0.1f, -0.1f}};
 const std::vector<glm::vec2> kTilted = {{0.2f, -0.1f}};
 

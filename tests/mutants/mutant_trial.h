@@ -19,7 +19,8 @@ struct Trial {
 std::vector<std::string> trialArguments(const std::string& checks,
                                         const std::filesystem::path& json);
 
-/// Its environment: the kernels, and caches in a folder of its own.
+/// Its environment: the kernels, and a folder for what the driver compiles; empty: the driver's
+/// own.
 std::vector<std::string> trialEnvironment(const std::filesystem::path& kernels,
                                           const std::filesystem::path& caches);
 

@@ -80,10 +80,11 @@ std::vector<Mutant> chosenMutants(const Options& options) {
 // A run of verify on one folder of kernels.
 class VerifyRun {
  public:
-  VerifyRun(const fs::path& folder, const fs::path& kernels, const std::string& checks)
+  VerifyRun(const fs::path& folder, const fs::path& kernels, const fs::path& caches,
+            const std::string& checks)
       : json_(folder / "found.json") {
     fs::remove(json_);
-    process_.emplace(trialArguments(checks, json_), trialEnvironment(kernels, folder));
+    process_.emplace(trialArguments(checks, json_), trialEnvironment(kernels, caches));
   }
   bool isRunning() const { return process_->isRunning(); }
   Trial end() {
@@ -131,7 +132,7 @@ class MutantRun {
 
  private:
   void start(const std::string& checks) {
-    run_ = std::make_unique<VerifyRun>(folder_.path(), folder_ / "kernels", checks);
+    run_ = std::make_unique<VerifyRun>(folder_.path(), folder_ / "kernels", folder_.path(), checks);
   }
 
   const Mutant mutant_;
@@ -152,7 +153,7 @@ std::string faultOfUnchanged(const std::vector<Mutant>& mutants) {
   fmt::print("The kernels as they are, by the checks that {} mutants name\n", mutants.size());
   std::fflush(stdout);
   const TempFolder folder;
-  const Trial trial = VerifyRun(folder.path(), kKernels, all).end();
+  const Trial trial = VerifyRun(folder.path(), kKernels, "", all).end();
   if (!trial.seen_by.empty()) return fmt::format("they fail {}", trial.seen_by.front());
   if (!trial.fault.empty()) return trial.fault;
   for (const Mutant& m : mutants) {
