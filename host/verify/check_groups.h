@@ -26,6 +26,7 @@ std::vector<Check> areaColourChecks();    // their Fresnel terms, channels, mean
 std::vector<Check> pictureChecks();       // pictures on them
 std::vector<Check> textureChecks();       // fetches along footprints
 std::vector<Check> lobeChecks();          // Gaussians of normals
+std::vector<Check> convolutionChecks();   // against means over normals and pixels
 std::vector<Check> normalMethodChecks();  // every method of mapped normals
 std::vector<Check> mixtureChecks();       // their fit
 std::vector<Check> scatterChecks();       // multiple scattering

@@ -84,10 +84,8 @@ Finding lobesMatchReference(const CheckContext& context) {
       finding.add(std::abs(p.mean_x - lobe.mean.x) / kLobeMean);
       finding.add(std::abs(p.mean_y - lobe.mean.y) / kLobeMean);
       finding.add(std::abs(p.variance - lobe.variance) / kLobeVariance);
-      // What is shaded is the lobe the kernel found; its own rounding is checked above.
-      const reference::NormalLobe found = {p.weight, {p.mean_x, p.mean_y}, p.variance};
       const reference::LobeLight expected =
-          reference::shadeLobe(found, glm::dvec3(cases[i].light), glm::dvec3(cases[i].view), alpha);
+          reference::shadeLobe(lobe, glm::dvec3(cases[i].light), glm::dvec3(cases[i].view), alpha);
       finding.add(std::abs(p.specular - expected.specular) /
                   (kMaskingTolerance * expected.specular + kDark));
       finding.add(std::abs(p.cosine - expected.cosine) / kLobeCosine);
