@@ -19,8 +19,8 @@
 namespace glintmark {
 namespace {
 
-constexpr glm::dvec3 kF0(0.04, 0.5, 0.9), kAlbedo(0.8, 0.3, 0.1), kRadiance(1, 3, 0.5);
-constexpr double kIntensity = 0.7;
+constexpr glm::dvec3 kAreaF0(0.04, 0.5, 0.9), kAreaAlbedo(0.8, 0.3, 0.1), kRadiance(1, 3, 0.5);
+constexpr double kAreaIntensity = 0.7;
 // A lobe of four parameters in place of the BRDF, of unit radiance, in units of what a white one
 // reflects at most: [HDHN16] Sect. 5, here at views down to 3 degrees.
 constexpr double kFittedLobe = 0.03;
@@ -35,9 +35,9 @@ constexpr double kMesoRelative = 1e-3, kMesoJoined = 6e-3;
 AreaLightProbe colouredProbe(const CheckContext& context, const AreaLight& light, bool diffuse) {
   AreaLightProbe probe;
   probe.material = whiteSpecular();
-  probe.material.surface.f0 = toFloat4(kF0);
-  probe.material.surface.intensity = static_cast<float>(kIntensity);
-  if (diffuse) probe.material.surface.albedo = toFloat4(kAlbedo);
+  probe.material.surface.f0 = toFloat4(kAreaF0);
+  probe.material.surface.intensity = static_cast<float>(kAreaIntensity);
+  if (diffuse) probe.material.surface.albedo = toFloat4(kAreaAlbedo);
   probe.lights = {light};
   probe.lights[0].radiance = kRadiance;
   probe.table = shippedGgx();
@@ -65,10 +65,10 @@ Finding brdf(const CheckContext& context, bool diffuse) {
     for (int c = 0; c < 3; ++c) {
       double want = 0;
       if (!above.empty()) {
-        want = kIntensity *
+        want = kAreaIntensity *
                std::abs(reference::microfacetOverPolygon(
-                   reference::Ndf::kGgx, view, cases[i].point.alpha, kF0[c], inverse, above));
-        if (diffuse) want += kAlbedo[c] * std::abs(reference::polygonFormFactor(above));
+                   reference::Ndf::kGgx, view, cases[i].point.alpha, kAreaF0[c], inverse, above));
+        if (diffuse) want += kAreaAlbedo[c] * std::abs(reference::polygonFormFactor(above));
       }
       finding.add(std::abs(got[i][c] / kRadiance[c] - want));
     }
@@ -114,8 +114,8 @@ Finding albedos(const CheckContext& context, bool clipless) {
       point.view = {std::sqrt(1 - cosine * cosine), 0, cosine};
       const glm::vec3 got = lightPoints(context.bench, probe, {point})[0];
       for (int c = 0; c < 3; ++c)
-        finding.add(
-            std::abs(got[c] / (kIntensity * kRadiance[c]) - schlickAlbedo(alpha, cosine, kF0[c])));
+        finding.add(std::abs(got[c] / (kAreaIntensity * kRadiance[c]) -
+                             schlickAlbedo(alpha, cosine, kAreaF0[c])));
     }
   return finding;
 }

@@ -109,7 +109,7 @@ Finding dielectrics(const CheckContext& context) {
 }
 
 // Lambert's: a share of mu^2 leaves at cosines below mu, and every azimuth has as much.
-Finding diffuse(const CheckContext& context) {
+Finding diffuseFacets(const CheckContext& context) {
   Finding finding(kShareError);
   for (const double incidence_deg : {0.0, 70.0}) {
     const Simulation s = traced(context, flat(SurfaceKind::kDiffuse, incidence_deg, 1));
@@ -164,7 +164,7 @@ std::vector<Check> facetChecks() {
   return {
       {"height_field/metals", "error of Fresnel's reflectance", metals},
       {"height_field/dielectrics", "error in units of its bound", dielectrics},
-      {"height_field/diffuse", "error of Lambert's distribution", diffuse},
+      {"height_field/diffuse", "error of Lambert's distribution", diffuseFacets},
       {"height_field/anisotropic", "relative error of the slopes' variance", anisotropicSlopes}};
 }
 

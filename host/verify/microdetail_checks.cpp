@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kPixelArea_uv = 1e-6;
 constexpr double kStandardErrors = 4;  // exceeded once in 16,000 cases
-const glm::dvec2 kAlpha(0.3, 0.15), kMicro(0.08, 0.05), kHalfSlope(0.12, -0.06);
+const glm::dvec2 kSurfaceAlpha(0.3, 0.15), kDetailAlpha(0.08, 0.05), kHalfSlope(0.12, -0.06);
 
 struct PlacedCase {
   double details;  // in a pixel, on average
@@ -31,21 +31,22 @@ struct PlacedMoments {
 
 MicrodetailSurface surfaceOf(double details) {
   MicrodetailSurface surface;
-  surface.material = simpleMaterial({static_cast<float>(kAlpha.x), static_cast<float>(kAlpha.y)},
-                                    {static_cast<float>(kMicro.x), static_cast<float>(kMicro.y)},
-                                    static_cast<float>(details / kPixelArea_uv));
+  surface.material =
+      simpleMaterial({static_cast<float>(kSurfaceAlpha.x), static_cast<float>(kSurfaceAlpha.y)},
+                     {static_cast<float>(kDetailAlpha.x), static_cast<float>(kDetailAlpha.y)},
+                     static_cast<float>(details / kPixelArea_uv));
   return surface;
 }
 
-MicrodetailRatios place(const CheckContext& context, const PlacedCase& c,
-                        const MicrodetailSurface& surface) {
+MicrodetailRatios placeDetails(const CheckContext& context, const PlacedCase& c,
+                               const MicrodetailSurface& surface) {
   const PixelLattice lattice =
       tiledLattice({3.1, -2.7}, kPixelArea_uv, c.aspect, 0.4, c.side_px, c.side_px);
   return MicrodetailTruth(context.bench.device, context.bench.cache, context.lanes)
-      .place(lattice, surface, pointSlopes(kHalfSlope, kAlpha, kMicro), c.filter);
+      .place(lattice, surface, pointSlopes(kHalfSlope, kSurfaceAlpha, kDetailAlpha), c.filter);
 }
 
-PlacedMoments momentsOf(const MicrodetailRatios& ratios, int channel) {
+PlacedMoments placedMomentsOf(const MicrodetailRatios& ratios, int channel) {
   PlacedMoments m;
   double squares = 0;
   const auto pixels = static_cast<double>(ratios.lobes.size());
@@ -59,14 +60,15 @@ PlacedMoments momentsOf(const MicrodetailRatios& ratios, int channel) {
 }
 
 // [ZK16] Eq. 7.
-double probability() {
-  return reference::slopeDensity(kHalfSlope, kAlpha) / reference::slopeDensity({0, 0}, kMicro);
+double detailProbability() {
+  return reference::slopeDensity(kHalfSlope, kSurfaceAlpha) /
+         reference::slopeDensity({0, 0}, kDetailAlpha);
 }
 
 Finding placed(const CheckContext& context, const PlacedCase& c) {
   Finding finding(kStandardErrors);
-  const PlacedMoments m = momentsOf(place(context, c, surfaceOf(c.details)), 0);
-  const double lambda = c.details * probability(), pixels = c.side_px * c.side_px;
+  const PlacedMoments m = placedMomentsOf(placeDetails(context, c, surfaceOf(c.details)), 0);
+  const double lambda = c.details * detailProbability(), pixels = c.side_px * c.side_px;
   // A filter of mean 1 and mean square q over its pixel's area gives variance q / lambda: the box
   // 1, the tent (2/3)^2.
   const double q = c.filter == PixelFilter::kTent ? 4.0 / 9 : 1;
@@ -88,11 +90,11 @@ Finding marked(const CheckContext& context) {
   surface.material.glints.palette[0] = {1, 0.2f, 0, 0};
   surface.material.glints.palette[1] = {0.4f, 0.9f, 0.1f, 0};
   surface.material.glints.palette[2] = {0.1f, 0.4f, 0.8f, 0};
-  const MicrodetailRatios ratios = place(context, c, surface);
+  const MicrodetailRatios ratios = placeDetails(context, c, surface);
   const double pixels = c.side_px * c.side_px;
   for (int channel = 0; channel < 3; ++channel) {
     const double want = channel == 2 ? 0.3 : 0.5;
-    const PlacedMoments m = momentsOf(ratios, channel);
+    const PlacedMoments m = placedMomentsOf(ratios, channel);
     finding.add(std::abs(m.reflecting - want) / std::sqrt(m.variance / pixels));
     finding.add(std::abs(m.lobes - want) / std::sqrt(m.variance / pixels));
   }

@@ -43,7 +43,7 @@ double covered(int i, int fine, int x, int coarse) {
 }
 
 // Weight, mean and mean square of the normals under a texel, whatever the lobes are.
-Finding moments(const CheckContext& context) {
+Finding momentsOfNormals(const CheckContext& context) {
   Finding finding(2e-5);  // sums of up to some thousand floats
   for (const auto& [width, height] : {std::pair{32, 32}, {37, 23}, {1, 50}, {70, 1}, {130, 40}}) {
     const NormalMap map = noisyMap(width, height, 5);
@@ -132,7 +132,7 @@ Finding clusters(const CheckContext& context) {
 }  // namespace
 
 std::vector<Check> mixtureChecks() {
-  return {{"mixture/moments", "error of moments", moments},
+  return {{"mixture/moments", "error of moments", momentsOfNormals},
           {"mixture/one_step", "difference from the host's moments", oneStep},
           {"mixture/clusters", "weight, mean and variance off", clusters}};
 }

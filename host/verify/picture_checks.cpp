@@ -124,14 +124,14 @@ PictureErrors pictureErrors(const CheckContext& context, bool specular) {
 
 // Where in the picture a lobe looks: pictures that grow along their sides. One direction and a box
 // stand for the lobe, so their mean position is off by some hundredths of the light.
-Finding place(const CheckContext& context, bool specular) {
+Finding picturePlace(const CheckContext& context, bool specular) {
   Finding finding(0.03);
   finding.add(pictureErrors(context, specular).gradients);
   return finding;
 }
 
 // How wide: waves of a half and of two thirds of the light that are blurred as the lobe would.
-Finding width(const CheckContext& context, bool specular) {
+Finding pictureWidth(const CheckContext& context, bool specular) {
   Finding finding(0.025);
   finding.add(pictureErrors(context, specular).waves);
   return finding;
@@ -144,9 +144,9 @@ std::vector<Check> pictureChecks() {
   for (const bool specular : {false, true}) {
     const char* lobe = specular ? "specular" : "diffuse";
     checks.push_back({fmt::format("picture/{}_place", lobe), "mean error of gradients",
-                      [specular](const CheckContext& c) { return place(c, specular); }});
+                      [specular](const CheckContext& c) { return picturePlace(c, specular); }});
     checks.push_back({fmt::format("picture/{}_width", lobe), "mean error of waves",
-                      [specular](const CheckContext& c) { return width(c, specular); }});
+                      [specular](const CheckContext& c) { return pictureWidth(c, specular); }});
   }
   return checks;
 }

@@ -18,12 +18,12 @@
 namespace glintmark {
 namespace {
 
-constexpr int kSize_px = 12, kSpp = 1024;
+constexpr int kTruthSize_px = 12, kSpp = 1024;
 // Samples of normals and cones are spread evenly, so a pixel's mean is good to 1 %; those of area
 // lights are random and weighted, good to some 2 %, and worst of 144. The mean of all pixels has a
 // tenth of it, unless something is missing.
 constexpr double kPixelNoise = 0.04, kWeightedNoise = 0.1, kMeanNoise = 0.005;
-constexpr int kConeDirections = 2000, kLightSteps = 48, kSubpixels = 12;
+constexpr int kTruthDirections = 2000, kLightSteps = 48, kSubpixels = 12;
 
 glm::dvec3 rgbOf(const float4& v) {
   return {v.x, v.y, v.z};
@@ -66,12 +66,13 @@ using Radiance = std::function<glm::dvec3(const Camera&, double x, double y)>;
 // Every pixel of the truth, and their mean, against `want` at a place on the screen.
 void compare(const CheckContext& context, Finding& finding, const Scene& scene, const View& view,
              double noise, const Radiance& want) {
-  const ShadingOptions options{.width_px = kSize_px, .height_px = kSize_px, .lanes = context.lanes};
+  const ShadingOptions options{
+      .width_px = kTruthSize_px, .height_px = kTruthSize_px, .lanes = context.lanes};
   const Image truth = renderTruth(context.bench.device, scene, view, options, kSpp, {}, 1).mean;
-  const Camera camera = makeCamera(view, kSize_px, kSize_px);
+  const Camera camera = makeCamera(view, kTruthSize_px, kTruthSize_px);
   glm::dvec3 got_sum(0), want_sum(0);
-  for (int y = 0; y < kSize_px; ++y)
-    for (int x = 0; x < kSize_px; ++x) {
+  for (int y = 0; y < kTruthSize_px; ++y)
+    for (int x = 0; x < kTruthSize_px; ++x) {
       const glm::dvec3 expected = want(camera, x, y);
       for (int c = 0; c < 3; ++c) {
         const double got = truth.at(x, y)[static_cast<std::size_t>(c)];
@@ -107,7 +108,7 @@ glm::dvec3 shadeCones(const Scene& scene, const glm::dvec3& n, const glm::dvec3&
 }
 
 // Lights on either side of the world's plane z = 0, where their frames change sign.
-Finding cones(const CheckContext& context) {
+Finding coneTruth(const CheckContext& context) {
   Finding finding(1);
   for (const double z : {-0.6, 0.6}) {
     Scene scene = truthFloor();
@@ -115,14 +116,14 @@ Finding cones(const CheckContext& context) {
     compare(context, finding, scene, lookingDown(40), kPixelNoise,
             [&](const Camera& camera, double x, double y) {
               return shadeCones(scene, {0, 0, 1}, onFloor(-glm::normalize(camera.ray(x, y))),
-                                kConeDirections);
+                                kTruthDirections);
             });
   }
   return finding;
 }
 
 // A map whose texels are about a pixel: the mean over the pixel of the interpolated normals.
-Finding mapped(const CheckContext& context) {
+Finding mappedTruth(const CheckContext& context) {
   constexpr int kTexels = 32;
   NormalMap map;
   map.name = "waves";
@@ -167,7 +168,7 @@ Finding mapped(const CheckContext& context) {
 }
 
 // A light that hangs over the floor, one that stands in it and is cut by the horizon.
-Finding areaLights(const CheckContext& context, bool ggx) {
+Finding areaTruth(const CheckContext& context, bool ggx) {
   const reference::Ndf ndf = ggx ? reference::Ndf::kGgx : reference::Ndf::kBeckmann;
   Scene scene = truthFloor();
   scene.materials[0].ggx = ggx;
@@ -215,12 +216,12 @@ Finding areaLights(const CheckContext& context, bool ggx) {
 }  // namespace
 
 std::vector<Check> truthChecks() {
-  return {{"truth/cones", "error in units of its bound", cones},
-          {"truth/mapped_normals", "error in units of its bound", mapped},
+  return {{"truth/cones", "error in units of its bound", coneTruth},
+          {"truth/mapped_normals", "error in units of its bound", mappedTruth},
           {"truth/area_lights_ggx", "error in units of its bound",
-           [](const CheckContext& context) { return areaLights(context, true); }},
+           [](const CheckContext& context) { return areaTruth(context, true); }},
           {"truth/area_lights_beckmann", "error in units of its bound",
-           [](const CheckContext& context) { return areaLights(context, false); }}};
+           [](const CheckContext& context) { return areaTruth(context, false); }}};
 }
 
 }  // namespace glintmark
