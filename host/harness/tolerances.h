@@ -48,6 +48,13 @@ inline constexpr double kExpansionSigmas = 0.01;
 /// error of that mean.
 inline constexpr double kEnergyTolerance = 0.01;
 
+/// What method kemppinen loses of the lobe: its particles' Gaussians are cut off at two cells.
+inline constexpr double kParticleLoss = 0.05;
+/// Mean of method published_zk16 over cells whose hash has few values.
+inline constexpr double kPublishedEnergy = 0.05;
+/// Change of rivals per hundredth of a pixel: a tent over a pixel changes by 2 % of its contrast.
+inline constexpr double kRivalMotion = 0.04;
+
 /// Share of pixels that a relative step of 4e-6 in the probability may change: some twenty cells
 /// with draws of mean 32 and less each change with that step times the mean, 2.6e-3, and single
 /// precision moves thresholds by as much again.

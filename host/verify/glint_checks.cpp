@@ -18,6 +18,10 @@ namespace {
 constexpr auto kZk16 = GlintMethod::kZk16;
 constexpr auto kExact = GlintMethod::kExact;
 constexpr auto kDistributed = GlintMethod::kDistributed;
+constexpr auto kDeliot = GlintMethod::kDeliotBelcour;
+constexpr auto kCorrected = GlintMethod::kDeliotCorrected;
+constexpr auto kKemppinen = GlintMethod::kKemppinen;
+constexpr auto kPublished = GlintMethod::kPublishedZk16;
 
 struct DrawCase {
   const char* name;
@@ -47,6 +51,25 @@ constexpr DrawCase kDrawCases[] = {
     {"distributed_stretched", kDistributed, {.4f, .1f}, {.02f, .05f}, 1e6f, 1, false, 16, kUsual},
     {"distributed_groove", kDistributed, {.1f, .5f}, {.1f, .02f}, 1e6f, 1, true, 16, kUsual},
     {"distributed_near", kDistributed, {.3f, .3f}, {.2f, .2f}, 3e3f, 1, false, 16, kUsual},
+    {"deliot_belcour_sparse", kDeliot, {.3f, .3f}, {.03f, .03f}, 1e6f, 0, false, 16, kUsual},
+    {"deliot_belcour_dense", kDeliot, {.3f, .3f}, {.03f, .03f}, 1e9f, 0, false, 16, kUsual},
+    {"deliot_belcour_varied", kDeliot, {.4f, .1f}, {.1f, .05f}, 1e6f, 2, false, 16, kUsual},
+    {"deliot_belcour_near", kDeliot, {.3f, .3f}, {.2f, .2f}, 3e3f, 0, false, 16, kUsual},
+    {"deliot_belcour_groove", kDeliot, {.1f, .5f}, {.1f, .02f}, 1e6f, 0, true, 16, kUsual},
+    {"deliot_corrected_sparse", kCorrected, {.3f, .3f}, {.03f, .03f}, 1e6f, 0, false, 16, kUsual},
+    {"deliot_corrected_dense", kCorrected, {.3f, .3f}, {.03f, .03f}, 1e9f, 0, false, 16, kUsual},
+    {"deliot_corrected_varied", kCorrected, {.4f, .1f}, {.1f, .05f}, 1e6f, 2, false, 16, kUsual},
+    {"deliot_corrected_near", kCorrected, {.3f, .3f}, {.2f, .2f}, 3e3f, 0, false, 16, kUsual},
+    {"deliot_corrected_groove", kCorrected, {.1f, .5f}, {.1f, .02f}, 1e6f, 0, true, 16, kUsual},
+    {"kemppinen_sparse", kKemppinen, {.3f, .3f}, {.03f, .03f}, 1e6f, 0, false, 16, kUsual},
+    {"kemppinen_dense", kKemppinen, {.3f, .3f}, {.03f, .03f}, 1e9f, 0, false, 16, kUsual},
+    {"kemppinen_varied", kKemppinen, {.4f, .1f}, {.1f, .05f}, 1e6f, 2, false, 16, kUsual},
+    {"kemppinen_near", kKemppinen, {.3f, .3f}, {.2f, .2f}, 3e3f, 0, false, 16, kUsual},
+    {"kemppinen_groove", kKemppinen, {.1f, .5f}, {.1f, .02f}, 1e6f, 0, true, 16, kUsual},
+    {"published_zk16_sparse", kPublished, {.3f, .3f}, {.03f, .03f}, 1e6f, 0, false, 16, kUsual},
+    {"published_zk16_dense", kPublished, {.3f, .3f}, {.03f, .03f}, 1e9f, 0, false, 16, kUsual},
+    {"published_zk16_varied", kPublished, {.4f, .1f}, {.1f, .05f}, 1e6f, 2, false, 16, kUsual},
+    {"published_zk16_groove", kPublished, {.1f, .5f}, {.1f, .02f}, 1e6f, 0, true, 16, kUsual},
     {"exact_sparse", kExact, {.3f, .3f}, {.03f, .03f}, 1e6f, 0, false, 16, kUsual},
     {"exact_dense", kExact, {.3f, .3f}, {.03f, .03f}, 1e9f, 0, false, 16, kUsual},
     {"exact_varied", kExact, {.3f, .3f}, {.1f, .1f}, 1e6f, 2, false, 16, kUsual},
@@ -177,7 +200,11 @@ struct WidthCase {
 constexpr WidthCase kWidthCases[] = {{"zk16", kZk16, false, false, false},
                                      {"zk16_groove_colour_cone", kZk16, true, true, true},
                                      {"exact", kExact, false, false, false},
-                                     {"distributed", kDistributed, false, true, false}};
+                                     {"distributed", kDistributed, false, true, false},
+                                     {"deliot_belcour", kDeliot, false, true, true},
+                                     {"deliot_corrected", kCorrected, false, false, false},
+                                     {"kemppinen", kKemppinen, false, true, true},
+                                     {"published_zk16", kPublished, false, true, true}};
 
 Finding sameGlints(const CheckContext& context, const WidthCase& c) {
   HandMadeFrame frame;
