@@ -30,8 +30,9 @@ std::optional<double> leastOf(std::span<const Record> records, const std::string
 
 std::string kindOf(const std::string& case_name) {
   const CaseName name = CaseName::parse(case_name);
-  return fmt::format("1:{} n={} lights={}", name.value("aspect").value_or("?"),
-                     name.value("lambda").value_or("?"), name.value("lights").value_or("?"));
+  const std::string lights = name.value("lights").value_or("?");
+  return fmt::format("1:{} n={}{}", name.value("aspect").value_or("?"),
+                     name.value("lambda").value_or("?"), lights == "1" ? "" : " x" + lights);
 }
 
 std::string methodOf(const std::string& case_name) {
@@ -98,8 +99,8 @@ const TableSpec& glintsSpec() {
           {{"ns_per_px",
             "ns",
             "time per pixel",
-            "frame with glints minus frame without, kernel events in turn, over the pixels; all "
-            "cores together",
+            "frames with glints minus the fastest without, kernel events in turn, over the pixels; "
+            "all cores together; tables name the least",
             "`METHOD/aspect=…/lambda=…/lights=…`",
             {"ns_per_visited", "visited_mean", "error"}},
            {"visited_mean", "1", "visited",
@@ -166,9 +167,9 @@ std::string glintsTableText(std::span<const Record> records) {
     }
   }
   return table.toString() +
-         "\n1:a: sides of a footprint; n: microdetails that reflect in it, of each light. ns: "
-         "least "
-         "of all\nrepetitions. visited: cells, draws (deliot) or particles (kemppinen). W1, "
+         "\n1:a: sides of a footprint; n: microdetails that reflect in it; x3: of each of 3 "
+         "lights. ns: "
+         "least of all\nrepetitions. visited: cells, draws (deliot) or particles (kemppinen). W1, "
          "variance (over the\ntruth's), mean: against placed microdetails. /best: W1 over the "
          "least "
          "of methods as fast.\n";
