@@ -13,6 +13,7 @@ std::vector<Check> binomialChecks();     // binomial.clh
 std::vector<Check> glintChecks();        // cells and draws of whole pixels
 std::vector<Check> energyChecks();       // glints on average
 std::vector<Check> zoomChecks();         // glints near, far, and continuous
+std::vector<Check> rivalChecks();        // other authors' glints
 std::vector<Check> coneChecks();         // lights of any width
 std::vector<Check> hardPixelChecks();    // footprints, materials and lights at their limits
 std::vector<Check> polygonChecks();      // area lights over a cosine
