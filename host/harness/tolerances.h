@@ -48,6 +48,17 @@ inline constexpr double kExpansionSigmas = 0.01;
 /// error of that mean.
 inline constexpr double kEnergyTolerance = 0.01;
 
+/// What method kemppinen loses of the lobe: its particles' Gaussians are cut off at two cells.
+inline constexpr double kParticleLoss = 0.08;
+/// Mean of the published draws of few microdetails: two distributions are blended for one, and a
+/// tail is cut off.
+inline constexpr double kPublishedMean = 0.02;
+/// Share of pixels that may differ from the reference's where method deliot_belcour rounds 48 real
+/// numbers, and where published_zk16 multiplies the last bit of a sine by 753, four times a cell.
+inline constexpr double kRoundedPixelShare = 0.01, kSineHashPixelShare = 0.06;
+/// Change of rivals per hundredth of a pixel: a tent over a pixel changes by 2 % of its contrast.
+inline constexpr double kRivalMotion = 0.04;
+
 /// Share of pixels that a relative step of 4e-6 in the probability may change: some twenty cells
 /// with draws of mean 32 and less each change with that step times the mean, 2.6e-3, and single
 /// precision moves thresholds by as much again.

@@ -17,6 +17,7 @@ std::vector<Check> colourChecks();        // colours of draws
 std::vector<Check> shadingChecks();       // smooth pixels of coloured materials
 std::vector<Check> energyChecks();        // glints on average
 std::vector<Check> zoomChecks();          // glints near, far, and continuous
+std::vector<Check> rivalChecks();         // other authors' glints
 std::vector<Check> coneChecks();          // lights of any width
 std::vector<Check> mappedConeChecks();    // spread normals under them
 std::vector<Check> hardPixelChecks();     // footprints, materials and lights at their limits
