@@ -17,6 +17,8 @@ std::vector<Check> coneChecks();         // lights of any width
 std::vector<Check> hardPixelChecks();    // footprints, materials and lights at their limits
 std::vector<Check> polygonChecks();      // area lights over a cosine
 std::vector<Check> areaLightChecks();    // area lights over transformed cosines
+std::vector<Check> areaGlintChecks();    // glints under area lights
+std::vector<Check> ggxChecks();          // GGX lobes and their glints
 std::vector<Check> textureChecks();      // fetches along footprints
 std::vector<Check> lobeChecks();         // Gaussians of normals
 std::vector<Check> scatterChecks();      // multiple scattering
