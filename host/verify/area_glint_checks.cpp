@@ -9,7 +9,7 @@
 #include <random>
 
 #include "host/core/angles.h"
-#include "host/fit/ltc_table.h"
+#include "host/fit/ltc_lobe.h"
 #include "host/frame/effect/area_lights.h"
 #include "host/frame/frame_renderer.h"
 #include "host/harness/area_light_harness.h"
@@ -24,19 +24,25 @@
 namespace glintmark {
 namespace {
 
-constexpr int kPolygonSamples = 10000;
+constexpr int kPolygonSamples = 4000;
 constexpr int kCasesPerLight = 12;
+
+// What the kernel makes of a light at a point.
+struct ProbedDetail {
+  double probability, reflected;
+};
 
 struct LitDetail {
   glm::dvec3 position, view;  // of the point; the light stands still
 };
 
-// The share of reflecting microdetails at each point. Positions and views are rounded to single
+// Positions and views are rounded to single
 // precision, as the kernel sees them.
-std::vector<double> probeDetails(const CheckContext& context, std::vector<LitDetail>& cases,
-                                 const AreaLight& light, const reference::DetailLobes& lobes) {
+std::vector<ProbedDetail> probeDetails(const CheckContext& context, std::vector<LitDetail>& cases,
+                                       const AreaLight& light,
+                                       const reference::DetailLobes& lobes) {
   const std::size_t n = paddedCount(cases.size());
-  std::vector<float> in(6 * n), out(3 * n);
+  std::vector<float> in(6 * n), out(4 * n);
   for (std::size_t i = 0; i < n; ++i) {
     const LitDetail& c = cases[std::min(i, cases.size() - 1)];
     for (int k = 0; k < 3; ++k) {
@@ -63,7 +69,9 @@ std::vector<double> probeDetails(const CheckContext& context, std::vector<LitDet
                           context.lanes, light.vertices.size(), lobes.ndf == reference::Ndf::kGgx))
       .launch(args, n / static_cast<std::size_t>(context.lanes), kLocalSize);
   output.read(out.data(), out.size() * 4);
-  return {out.begin(), out.begin() + static_cast<std::ptrdiff_t>(cases.size())};
+  std::vector<ProbedDetail> result;
+  for (std::size_t i = 0; i < cases.size(); ++i) result.push_back({out[i], out[n + i]});
+  return result;
 }
 
 glm::dvec3 raised(double elevation_rad, double turn_rad) {
@@ -101,20 +109,48 @@ DetailCase detailCase(int vertices, double size, double alpha, unsigned seed,
     const glm::dvec3 m =
         glm::normalize(glm::dvec3(alpha * normal(random), alpha * normal(random), 1));
     const glm::dvec3 i = 2 * glm::dot(view, m) * m - view;
-    if (i.z <= 0.02) continue;
+    // Seen edge on, corners far from the lobe would decide.
+    if (i.z <= 0.02 || std::abs(glm::dot(i, areaLightNormal(made.light))) < 0.2) continue;
     made.points.push_back({-glm::dvec3(glm::vec3(i)), glm::normalize(glm::dvec3(glm::vec3(view)))});
   }
   return made;
 }
 
+// A light's corners about a point.
+std::vector<glm::dvec3> seenFrom(const AreaLight& light, const glm::dvec3& position) {
+  std::vector<glm::dvec3> local;
+  for (const glm::dvec3& v : light.vertices) local.push_back(v - position);
+  return local;
+}
+
+// What the surface's lobe reflects of a light without Fresnel's term.
+double reflectedBy(std::span<const glm::dvec3> light, const glm::dvec3& view, double alpha,
+                   reference::Ndf ndf) {
+  // Into the frame of the table, whose x axis the view lies along.
+  const double sine = glm::length(glm::dvec2(view));
+  const glm::dvec2 x = sine > 1e-9 ? glm::dvec2(view) / sine : glm::dvec2(1, 0);
+  std::vector<glm::dvec3> turned;
+  for (const glm::dvec3& v : light)
+    turned.emplace_back(x.x * v.x + x.y * v.y, x.x * v.y - x.y * v.x, v.z);
+  const LtcCell cell = lookUpLtc(shippedLtcTable(ndf), alpha, view.z);
+  return std::abs(reference::microfacetOverPolygon(ndf, {sine, 0, view.z}, alpha, 1,
+                                                   ltcInverseMatrix(cell, alpha, view.z), turned));
+}
+
 constexpr double kAllViews_deg[] = {3, 10, 20, 40, 60, 90};
 constexpr double kRoughness[] = {0.05, 0.1, 0.25, 0.5, 0.8};
+constexpr double kDiscernible = 0.01;  // shares below it are not asked for
 
-// The share against brute force, relative, where it is at all likely; nine of ten lights stay below
-// the bound.
-Finding probability(const CheckContext& context, reference::Ndf ndf) {
-  Finding finding(kPolygonProbability);
-  std::vector<double> errors;
+// Kernel over truth, at one point.
+struct DetailRatios {
+  double view_deg;
+  double probability;  // of a microdetail mirroring the light
+  double brightness;   // of one that does: what the lobe reflects, over the probability
+};
+
+// Lights of 3 to 8 corners and of many sizes, over lobes of many widths.
+std::vector<DetailRatios> detailRatios(const CheckContext& context, reference::Ndf ndf) {
+  std::vector<DetailRatios> ratios;
   unsigned seed = 0;
   for (const double alpha : kRoughness)
     for (const double micro : {0.15, 0.6})
@@ -122,55 +158,77 @@ Finding probability(const CheckContext& context, reference::Ndf ndf) {
         const int vertices = 3 + static_cast<int>(seed % 6);
         DetailCase c = detailCase(vertices, size, alpha, ++seed, kAllViews_deg);
         const reference::DetailLobes lobes{ndf, alpha, glm::dvec2(micro * alpha)};
-        const std::vector<double> probed = probeDetails(context, c.points, c.light, lobes);
+        const std::vector<ProbedDetail> probed = probeDetails(context, c.points, c.light, lobes);
         for (std::size_t i = 0; i < probed.size(); ++i) {
-          std::vector<glm::dvec3> local;
-          for (const glm::dvec3& v : c.light.vertices) local.push_back(v - c.points[i].position);
-          const double want =
-              reference::polygonProbability(local, c.points[i].view, lobes, kPolygonSamples);
-          if (want < 0.01) continue;
-          const double ratio = probed[i] / want;
-          finding.require(
-              ratio > 1 / kProbabilityMagnitude && ratio < kProbabilityMagnitude,
-              fmt::format("a light of size {} at roughness {} has {:.2g} times its share", size,
-                          alpha, ratio));
-          errors.push_back(std::abs(ratio - 1));
+          const glm::dvec3& view = c.points[i].view;
+          const std::vector<glm::dvec3> local = seenFrom(c.light, c.points[i].position);
+          const double want = reference::polygonProbability(local, view, lobes, kPolygonSamples);
+          if (want < kDiscernible) continue;
+          const double probability = probed[i].probability / want;
+          const double reflected = probed[i].reflected / reflectedBy(local, view, alpha, ndf);
+          ratios.push_back({std::asin(view.z) / kDegree, probability, reflected / probability});
         }
       }
+  return ratios;
+}
+
+// Adds what nine of ten errors stay below.
+void addMostErrors(Finding& finding, std::vector<double> errors, std::size_t least) {
   std::ranges::sort(errors);
-  finding.require(errors.size() > 100, "too few lights mirror enough");
+  finding.require(errors.size() >= least, "too few lights mirror enough");
   if (!errors.empty()) finding.add(errors[errors.size() * 9 / 10]);
+}
+
+// What one reflecting microdetail sends, against brute force at any view.
+Finding brightness(const CheckContext& context, reference::Ndf ndf) {
+  Finding finding(kPolygonBrightness);
+  std::vector<double> errors;
+  for (const DetailRatios& ratios : detailRatios(context, ndf)) {
+    finding.require(
+        ratios.brightness > 1 / kProbabilityMagnitude && ratios.brightness < kProbabilityMagnitude,
+        fmt::format("a microdetail is {:.2g} times as bright", ratios.brightness));
+    errors.push_back(std::abs(ratios.brightness - 1));
+  }
+  addMostErrors(finding, errors, 100);
+  return finding;
+}
+
+// The share of microdetails that does, where the transformed cosine is near the lobe.
+Finding probability(const CheckContext& context, reference::Ndf ndf) {
+  Finding finding(ndf == reference::Ndf::kGgx ? kGgxPolygonProbability : kPolygonProbability);
+  std::vector<double> errors;
+  for (const DetailRatios& ratios : detailRatios(context, ndf))
+    if (ratios.view_deg >= 30) errors.push_back(std::abs(ratios.probability - 1));
+  addMostErrors(finding, errors, 100);
   return finding;
 }
 
 // A light of a few thousandths of the lobe's width, against a cone of the same solid angle in the
-// same place.
+// same place: what one microdetail sends.
 Finding tinyLight(const CheckContext& context) {
-  constexpr double kViews_deg[] = {30, 45, 60, 90};
-  Finding finding(kPolygonProbability);
+  constexpr double kViews_deg[] = {10, 30, 45, 60, 90};
+  Finding finding(kTinyPolygonBrightness);
   std::vector<double> errors;
   unsigned seed = 900;
   for (const double alpha : {0.1, 0.3, 0.6}) {
     DetailCase c = detailCase(5, 0.004 * alpha, alpha, ++seed, kViews_deg);
     const reference::DetailLobes lobes{reference::Ndf::kBeckmann, alpha, glm::dvec2(0.3 * alpha)};
-    const std::vector<double> probed = probeDetails(context, c.points, c.light, lobes);
+    const std::vector<ProbedDetail> probed = probeDetails(context, c.points, c.light, lobes);
     for (std::size_t i = 0; i < probed.size(); ++i) {
       const LitDetail& point = c.points[i];
-      std::vector<glm::dvec3> local;
-      for (const glm::dvec3& v : c.light.vertices) local.push_back(v - point.position);
-      const double angle = std::abs(reference::polygonSolidAngle(local));
+      const double angle_sr =
+          std::abs(reference::polygonSolidAngle(seenFrom(c.light, point.position)));
       const glm::dvec3 axis = glm::normalize(-point.position);
-      const reference::Cone cone{axis, std::acos(1 - angle / (2 * std::numbers::pi))};
-      const glm::dvec3 h = axis + point.view;
-      if (glm::length(glm::dvec2(h) / h.z) > alpha) continue;
-      const double want = reference::coneProbability(cone, point.view, glm::dvec2(alpha),
-                                                     lobes.alpha_l, false, 2000);
-      errors.push_back(std::abs(probed[i] / want - 1));
+      const reference::Cone cone{axis, std::acos(1 - angle_sr / (2 * std::numbers::pi))};
+      const double share = reference::coneProbability(cone, point.view, glm::dvec2(alpha),
+                                                      lobes.alpha_l, false, 2000);
+      const double reflected = angle_sr * reference::microfacetTimesCosine(
+                                              reference::Ndf::kBeckmann, axis, point.view, alpha);
+      errors.push_back(
+          std::abs(probed[i].reflected / probed[i].probability * share / reflected - 1));
     }
   }
-  std::ranges::sort(errors);
-  finding.require(errors.size() > 10, "too few lights lie within the lobe");
-  if (!errors.empty()) finding.add(errors[errors.size() * 9 / 10]);
+  addMostErrors(finding, errors, 30);
   return finding;
 }
 
@@ -230,11 +288,15 @@ Finding energy(const CheckContext& context, const FloorLight& kind) {
 
 std::vector<Check> areaGlintChecks() {
   std::vector<Check> checks = {
+      {"area_glint/brightness_beckmann", "error of one glint, 9 of 10",
+       [](const CheckContext& c) { return brightness(c, reference::Ndf::kBeckmann); }},
+      {"area_glint/brightness_ggx", "error of one glint, 9 of 10",
+       [](const CheckContext& c) { return brightness(c, reference::Ndf::kGgx); }},
       {"area_glint/probability_beckmann", "relative error of p, 9 of 10",
        [](const CheckContext& c) { return probability(c, reference::Ndf::kBeckmann); }},
       {"area_glint/probability_ggx", "relative error of p, 9 of 10",
        [](const CheckContext& c) { return probability(c, reference::Ndf::kGgx); }},
-      {"area_glint/tiny_light", "relative error of p, 9 of 10", tinyLight}};
+      {"area_glint/tiny_light", "error of one glint, 9 of 10", tinyLight}};
   for (const FloorLight& kind : kFloorLights)
     checks.push_back({std::string("area_glint/energy_") + kind.name, "relative error of the mean",
                       [&kind](const CheckContext& c) { return energy(c, kind); }});

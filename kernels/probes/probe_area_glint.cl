@@ -7,7 +7,8 @@ WIDE vfloat loadFloat(global const float* p, size_t i) {
 }
 
 // points: planes of `count` entries: position (3), view (3, unit, z > 0); the surface's frame is
-// the axes of the world. out: probability, half vector (2) as microdetailRatio reads it.
+// the axes of the world. out: probability, what the lobe reflects, half vector (2) as
+// microdetailRatio reads it.
 kernel void probeAreaGlint(global const float* points, constant const MaterialParams* material,
                            constant const AreaLightParams* light, global const float* table,
                            global float* out, uint table_size, uint count) {
@@ -28,6 +29,7 @@ kernel void probeAreaGlint(global const float* points, constant const MaterialPa
   const LightLobe result =
       areaLightLobe(&region, lobe, share.factor, lobe.scale * share.value, &seen_by, material);
   storeFloat(result.probability, out, i);
-  storeFloat(result.half_u, out, count + i);
-  storeFloat(result.half_v, out, 2 * (size_t)count + i);
+  storeFloat(lobe.scale * share.value, out, count + i);
+  storeFloat(result.half_u, out, 2 * (size_t)count + i);
+  storeFloat(result.half_v, out, 3 * (size_t)count + i);
 }
