@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "host/filter/mip_texels.h"
 #include "host/frame/effect/area_lights.h"
 
 namespace glintmark {
@@ -27,6 +28,25 @@ std::vector<float> pointPlanes(const std::vector<HandMadePoint>& points, std::si
   return planes;
 }
 
+// The pictures of lights, one after the other, as the kernels read them.
+struct Pictures {
+  std::vector<MipTexture> layouts;
+  std::vector<float4> texels;
+};
+
+Pictures picturesOf(const std::vector<AreaLight>& lights) {
+  Pictures pictures;
+  for (const AreaLight& light : lights) {
+    if (light.texture.pixels.empty()) continue;
+    const MipTexels packed = packMipChain(prefilterLightTexture(light.texture), 1);
+    MipTexture layout = packed.layout;
+    for (auto& first : layout.first) first += static_cast<uint>(pictures.texels.size());
+    pictures.layouts.push_back(layout);
+    pictures.texels.insert(pictures.texels.end(), packed.texels.begin(), packed.texels.end());
+  }
+  return pictures;
+}
+
 }  // namespace
 
 std::vector<glm::vec3> lightPoints(KernelBench& bench, const AreaLightProbe& probe,
@@ -36,19 +56,25 @@ std::vector<glm::vec3> lightPoints(KernelBench& bench, const AreaLightProbe& pro
   for (const AreaLight& light : probe.lights) vertices = std::max(vertices, light.vertices.size());
   const bool diffuse = probe.material.surface.albedo.x > 0;
   Buffer out(bench.device, 3 * stride * 4, BufferPurpose::kProbe);
-  const std::vector<KernelArg> args = {
-      probeData(bench, pointPlanes(points, stride)),
-      probeData(bench, std::vector{probe.material}),
-      probeData(bench, prepareAreaLights(probe.lights, glm::dvec3(0))),
-      probeData(bench, probe.table.values),
-      out,
-      static_cast<std::uint32_t>(probe.lights.size()),
-      static_cast<std::uint32_t>(probe.table.size),
-      static_cast<std::uint32_t>(stride)};
-  probeKernel(
-      bench, kProbes, "probeAreaLights",
-      fmt::format("-D WIDTH={} -D LTC=1 -D LIGHT_VERTICES={} -D DIFFUSE={:d} -D CLIPLESS={:d}",
-                  probe.width, vertices, diffuse, probe.clipless))
+  const Pictures pictures = picturesOf(probe.lights);
+  const bool textured = !pictures.layouts.empty();
+  std::vector<KernelArg> args = {probeData(bench, pointPlanes(points, stride)),
+                                 probeData(bench, std::vector{probe.material}),
+                                 probeData(bench, prepareAreaLights(probe.lights, glm::dvec3(0))),
+                                 probeData(bench, probe.table.values)};
+  if (textured) {
+    args.push_back(probeData(bench, pictures.layouts));
+    args.push_back(probeData(bench, pictures.texels));
+  }
+  for (const KernelArg& arg :
+       {KernelArg(out), KernelArg(static_cast<std::uint32_t>(probe.lights.size())),
+        KernelArg(static_cast<std::uint32_t>(probe.table.size)),
+        KernelArg(static_cast<std::uint32_t>(stride))})
+    args.push_back(arg);
+  probeKernel(bench, kProbes, "probeAreaLights",
+              fmt::format("-D WIDTH={} -D LTC=1 -D LIGHT_VERTICES={} -D DIFFUSE={:d} "
+                          "-D CLIPLESS={:d} -D LIGHT_TEXTURE={:d}",
+                          probe.width, vertices, diffuse, probe.clipless, textured))
       .launch(args, stride / static_cast<std::size_t>(probe.width), kLocalSize);
   std::vector<float> values(3 * stride);
   out.read(values.data(), values.size() * 4);

@@ -27,7 +27,7 @@ struct AreaLightProbe {
   bool clipless = false;
 };
 
-/// Radiance of each point. Vertices and diffuse term as the frame would choose them.
+/// Radiance of each point. Vertices, diffuse term and pictures as the frame would choose them.
 std::vector<glm::vec3> lightPoints(KernelBench& bench, const AreaLightProbe& probe,
                                    const std::vector<HandMadePoint>& points);
 

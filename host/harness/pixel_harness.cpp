@@ -144,6 +144,14 @@ reference::GlintRule referenceRule(GlintMethod method) {
       return reference::GlintRule::kExact;
     case GlintMethod::kDistributed:
       return reference::GlintRule::kDistributed;
+    case GlintMethod::kDeliotBelcour:
+      return reference::GlintRule::kDeliotBelcour;
+    case GlintMethod::kDeliotCorrected:
+      return reference::GlintRule::kDeliotCorrected;
+    case GlintMethod::kKemppinen:
+      return reference::GlintRule::kKemppinen;
+    case GlintMethod::kPublishedZk16:
+      return reference::GlintRule::kPublishedZk16;
     default:
       return reference::GlintRule::kZk16;
   }

@@ -109,4 +109,24 @@ std::vector<float> probeBinomial(KernelBench& bench, const std::vector<std::uint
   return download<float>(out, 0, bits.size());
 }
 
+std::vector<float> probeSineHash(KernelBench& bench, const std::vector<float>& n, int width) {
+  const std::size_t padded = paddedCount(n.size());
+  Buffer out = makeOutput(bench, padded);
+  launch(bench, "probes/probe_published.cl", "probeSineHash", "", width,
+         {paddedData(bench, n), out, static_cast<std::uint32_t>(padded)}, padded);
+  return download<float>(out, 0, n.size());
+}
+
+std::vector<float> probePublishedBinomial(KernelBench& bench, const std::vector<float>& u,
+                                          const std::vector<float>& n, const std::vector<float>& p,
+                                          int width) {
+  const std::size_t padded = paddedCount(u.size());
+  Buffer out = makeOutput(bench, padded);
+  launch(bench, "probes/probe_published.cl", "probePublishedBinomial", "", width,
+         {paddedData(bench, u), paddedData(bench, n), paddedData(bench, p), out,
+          static_cast<std::uint32_t>(padded)},
+         padded);
+  return download<float>(out, 0, u.size());
+}
+
 }  // namespace glintmark

@@ -54,4 +54,10 @@ std::vector<float> probeBinomial(KernelBench& bench, const std::vector<std::uint
                                  const std::vector<float>& n, const std::vector<float>& p,
                                  GlintMethod method, int width);
 
+/// The published shader's hash of numbers, and its binomial draws; u: uniform numbers.
+std::vector<float> probeSineHash(KernelBench& bench, const std::vector<float>& n, int width);
+std::vector<float> probePublishedBinomial(KernelBench& bench, const std::vector<float>& u,
+                                          const std::vector<float>& n, const std::vector<float>& p,
+                                          int width);
+
 }  // namespace glintmark

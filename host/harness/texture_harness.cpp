@@ -73,7 +73,7 @@ std::vector<FetchedTexel> fetchPixels(KernelBench& bench, const TestTexture& tex
       planes[(2 + d) * n + i] = std::bit_cast<std::uint32_t>(derivatives[d]);
   }
   const std::size_t components = 4 * static_cast<std::size_t>(texel_size);
-  std::vector<float> words((components + 2) * n);
+  std::vector<float> words((components + 3) * n);
   Buffer out(bench.device, words.size() * 4, BufferPurpose::kProbe);
   const std::vector<KernelArg> args = {probeData(bench, std::vector{texture.header}),
                                        probeData(bench, texture.texels),
@@ -92,6 +92,7 @@ std::vector<FetchedTexel> fetchPixels(KernelBench& bench, const TestTexture& tex
     for (std::size_t c = 0; c < components; ++c) fetched[i].values.push_back(words[c * n + i]);
     fetched[i].count = static_cast<int>(words[components * n + i]);
     fetched[i].level = words[(components + 1) * n + i];
+    fetched[i].true_spread = words[(components + 2) * n + i];
   }
   return fetched;
 }

@@ -33,6 +33,7 @@ struct FetchedTexel {
   std::vector<float> values;
   int count = 0;
   float level = 0;
+  float true_spread = 0;  // share of the finest texels' variance that lies under the footprint
 };
 
 /// The device's fetch at `width` lanes.

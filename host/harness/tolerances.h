@@ -48,6 +48,17 @@ inline constexpr double kExpansionSigmas = 0.01;
 /// error of that mean.
 inline constexpr double kEnergyTolerance = 0.01;
 
+/// What method kemppinen loses of the lobe: its particles' Gaussians are cut off at two cells.
+inline constexpr double kParticleLoss = 0.08;
+/// Mean of the published draws of few microdetails: two distributions are blended for one, and a
+/// tail is cut off.
+inline constexpr double kPublishedMean = 0.02;
+/// Share of pixels that may differ from the reference's where method deliot_belcour rounds 48 real
+/// numbers, and where published_zk16 multiplies the last bit of a sine by 753, four times a cell.
+inline constexpr double kRoundedPixelShare = 0.01, kSineHashPixelShare = 0.06;
+/// Change of rivals per hundredth of a pixel: a tent over a pixel changes by 2 % of its contrast.
+inline constexpr double kRivalMotion = 0.04;
+
 /// Share of pixels that a relative step of 4e-6 in the probability may change: some twenty cells
 /// with draws of mean 32 and less each change with that step times the mean, 2.6e-3, and single
 /// precision moves thresholds by as much again.
@@ -112,6 +123,28 @@ inline constexpr double kLobeCosine = 1e-5;
 inline constexpr double kMaskingTolerance = 7e-3;
 /// Brightness below which a difference does not show: the peak of the base lobe is above 1.
 inline constexpr double kDark = 1e-4;
+
+/// Sine, cosine and angle in turns, as kernels/wide/wide_trig.clh states them.
+inline constexpr double kSineError = 3e-7, kAngleError = 1e-6;
+/// Draws one in ten thousand by the expansion of second order: the third is 0.02 of a microdetail
+/// there, and draws that are whole numbers differ by 1 in a few of a hundred.
+inline constexpr double kExpandedTail = 0.1;
+/// What is left of lobes that merge within 3 % of the base lobe's variance each.
+inline constexpr double kMergedLobes = 0.02;
+/// Schlick's term of mapped cones is asked for where it is at least this share of the lobe.
+inline constexpr double kDarkSchlick = 1e-3;
+
+/// Directions in a pixel's frame: 8 bytes hold it to 4e-6 rad, and float adds some 1e-6.
+inline constexpr double kFrameError = 1e-5;
+/// Energy that metals get back, of all: a polynomial of the eighth degree, and the albedo of the
+/// rational fit of Smith's Lambda, good to 0.35 % of G1.
+inline constexpr double kCompensationTolerance = 6e-3;
+
+/// A footprint that holds a whole map, relative. One tilted normal: rounding and the rational fit
+/// of Smith's Lambda. Four that a mixture keeps apart: those, and what EM's shared normals leave. A
+/// Gaussian in place of four normals a third of the base lobe apart: its fourth moment. Phong peaks
+/// in place of Beckmann lobes: cos^n falls off later.
+inline constexpr double kTiltedLobe = 0.005, kGaussianOfNormals = 0.04, kPhongPeaks = 0.12;
 
 /// Multiple scattering, relative to a Lambertian lobe's radiance: single precision and the
 /// polynomials in a cosine.

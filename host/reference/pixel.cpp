@@ -7,6 +7,7 @@
 
 #include "host/reference/beckmann.h"
 #include "host/reference/binomial.h"
+#include "host/reference/rivals.h"
 
 namespace glintmark::reference {
 namespace {
@@ -125,6 +126,19 @@ double sharedMicrodetails(const PixelFootprint& footprint, std::span<const GridV
   return std::clamp(count, 1.0, mostExpected(glints.size_variation));
 }
 
+// Methods that have no grids of ours.
+bool isRival(GlintRule method) {
+  return method != GlintRule::kZk16 && method != GlintRule::kExact &&
+         method != GlintRule::kDistributed;
+}
+
+RivalRatio rivalRatio(GlintRule method, const PixelFootprint& footprint, const Glints& glints,
+                      const RivalLight& light) {
+  if (method == GlintRule::kKemppinen) return kemppinen(footprint, glints, light);
+  if (method == GlintRule::kPublishedZk16) return publishedZk16(footprint, glints, light);
+  return deliotBelcour(footprint, glints, light, method == GlintRule::kDeliotBelcour);
+}
+
 }  // namespace
 
 HalfVectorIndex halfVectorIndex(const glm::dvec3& half, const Glints& glints) {
@@ -141,8 +155,10 @@ PixelResult evaluatePixel(const SurfacePixel& pixel, const Glints& glints,
   const GridRules rules = gridRules(glints.alpha_g, glints.alpha_l, glints.density);
   const glm::dvec2 stretch = rules.stretch;
   const bool exact = options.method == GlintRule::kExact;
-  const std::vector<GridVisit> grids =
-      exact ? visitExact(pixel.footprint, rules) : visitZk16(pixel.footprint, rules, options.ka);
+  const bool rival = isRival(options.method);
+  const std::vector<GridVisit> grids = rival   ? std::vector<GridVisit>()
+                                       : exact ? visitExact(pixel.footprint, rules)
+                                               : visitZk16(pixel.footprint, rules, options.ka);
   const glm::dvec3 o = toLocal(pixel.frame, pixel.view);
 
   PixelResult result;
@@ -153,6 +169,14 @@ PixelResult evaluatePixel(const SurfacePixel& pixel, const Glints& glints,
         glints.intensity * light.irradiance * brdfTimesCosine(i, o, glints.alpha_g, glints.f0);
     result.smooth += smooth;
     if (p <= kLeastProbability) continue;
+    if (rival) {
+      const RivalRatio ratio =
+          rivalRatio(options.method, pixel.footprint, glints, {p, glm::normalize(i + o)});
+      result.radiance += smooth * ratio.ratio;
+      result.cells += ratio.visited;
+      result.limited = result.limited || ratio.limited;
+      continue;
+    }
     const HalfVectorIndex half = halfVectorIndex(glm::normalize(i + o), glints);
     const LightDraw draw = {p, half, glints, stretch, exact};
     const bool distributed = options.method == GlintRule::kDistributed;

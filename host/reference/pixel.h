@@ -33,7 +33,15 @@ struct SurfacePixel {
 };
 
 /// How a pixel's cells are found and drawn: kernels/glint/method_*.clh.
-enum class GlintRule { kZk16, kExact, kDistributed };
+enum class GlintRule {
+  kZk16,
+  kExact,
+  kDistributed,
+  kDeliotBelcour,
+  kDeliotCorrected,
+  kKemppinen,
+  kPublishedZk16
+};
 
 struct GlintMethodOptions {
   GlintRule method = GlintRule::kZk16;

@@ -130,6 +130,34 @@ Finding deepTail(const CheckContext& context, GlintMethod method) {
   return finding;
 }
 
+// Where the normal distribution stands for the binomial, one draw in ten thousand: the mean
+// distance to Boost.Math's quantile, which rounding to whole numbers leaves alone.
+Finding expandedTail(const CheckContext& context) {
+  constexpr std::size_t kDraws = 4096;
+  Finding finding(kExpandedTail);
+  for (const double mean : {33.0, 45.0, 80.0, 300.0})
+    for (const double probability : {1e-4, 0.05, 0.3})
+      for (const bool upper : {true, false}) {
+        std::vector<std::uint32_t> bits;
+        for (std::size_t i = 0; i < kDraws; ++i) {
+          const double u = 1e-5 * std::pow(30.0, (static_cast<double>(i) + 0.5) / kDraws);
+          bits.push_back(static_cast<std::uint32_t>((upper ? u : 1 - u) * 0x1p32));
+        }
+        const float trials = std::round(static_cast<float>(mean / probability));
+        const auto p = static_cast<float>(probability);
+        const auto k =
+            probeBinomial(context.bench, bits, std::vector<float>(kDraws, trials),
+                          std::vector<float>(kDraws, p), GlintMethod::kExact, context.lanes);
+        double difference = 0;
+        for (std::size_t i = 0; i < kDraws; ++i)
+          difference +=
+              k[i] - static_cast<double>(reference::upperQuantile(
+                         reference::uniformOf(bits[i]), static_cast<std::int64_t>(trials), p));
+        finding.add(std::abs(difference / kDraws));
+      }
+  return finding;
+}
+
 Finding sameDraws(const CheckContext& context, GlintMethod method) {
   std::mt19937 random(12);
   std::vector<std::uint32_t> bits;
@@ -168,6 +196,7 @@ std::vector<Check> binomialChecks() {
     add("deep_tail", "draws beyond the least uniform's", deepTail);
     add("same_bits", "draws that differ from one lane's", sameDraws);
   }
+  checks.push_back({"binomial/exact_tail", "mean distance from Boost.Math", expandedTail});
   return checks;
 }
 

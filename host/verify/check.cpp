@@ -53,6 +53,7 @@ CheckResult runCheck(const Check& check, const CheckContext& context) {
     throw;
   } catch (const Error& error) {
     result.verdict = Verdict::kFail;
+    result.judged = false;
     result.worst = std::numeric_limits<double>::infinity();
     result.note = error.what();
   }

@@ -62,6 +62,7 @@ struct CheckResult {
   double worst = 0, bound = 0;
   std::string note;
   double seconds = 0;  // wall time, compiling included
+  bool judged = true;  // false: it failed without a finding, by an Error or a lost process
 };
 
 /// Runs one check; an Error that it throws is a failure with its message as the note.

@@ -6,23 +6,37 @@
 
 namespace glintmark {
 
-std::vector<Check> deviceChecks();       // shared structs, arithmetic
-std::vector<Check> mathsChecks();        // elementary functions of wide_math.clh
-std::vector<Check> seedChecks();         // hash.clh
-std::vector<Check> binomialChecks();     // binomial.clh
-std::vector<Check> glintChecks();        // cells and draws of whole pixels
-std::vector<Check> energyChecks();       // glints on average
-std::vector<Check> zoomChecks();         // glints near, far, and continuous
-std::vector<Check> coneChecks();         // lights of any width
-std::vector<Check> hardPixelChecks();    // footprints, materials and lights at their limits
-std::vector<Check> polygonChecks();      // area lights over a cosine
-std::vector<Check> areaLightChecks();    // area lights over transformed cosines
-std::vector<Check> areaGlintChecks();    // glints under area lights
-std::vector<Check> ggxChecks();          // GGX lobes and their glints
-std::vector<Check> textureChecks();      // fetches along footprints
-std::vector<Check> lobeChecks();         // Gaussians of normals
-std::vector<Check> scatterChecks();      // multiple scattering
-std::vector<Check> frameChecks();        // whole frames: mapped normals, one pixel, nothing at all
-std::vector<Check> heightFieldChecks();  // the ray caster
+std::vector<Check> deviceChecks();        // shared structs, arithmetic
+std::vector<Check> mathsChecks();         // elementary functions of wide_math.clh
+std::vector<Check> trigChecks();          // sine, cosine and angle
+std::vector<Check> seedChecks();          // hash.clh
+std::vector<Check> binomialChecks();      // binomial.clh
+std::vector<Check> pixelChecks();         // frames and views of pixels
+std::vector<Check> glintChecks();         // cells and draws of whole pixels
+std::vector<Check> colourChecks();        // colours of draws
+std::vector<Check> shadingChecks();       // smooth pixels of coloured materials
+std::vector<Check> energyChecks();        // glints on average
+std::vector<Check> zoomChecks();          // glints near, far, and continuous
+std::vector<Check> rivalChecks();         // other authors' glints
+std::vector<Check> coneChecks();          // lights of any width
+std::vector<Check> mappedConeChecks();    // spread normals under them
+std::vector<Check> hardPixelChecks();     // footprints, materials and lights at their limits
+std::vector<Check> polygonChecks();       // area lights over a cosine
+std::vector<Check> areaLightChecks();     // area lights over transformed cosines
+std::vector<Check> areaGlintChecks();     // glints under area lights
+std::vector<Check> ggxChecks();           // GGX lobes and their glints
+std::vector<Check> areaColourChecks();    // their Fresnel terms, channels, mean normals
+std::vector<Check> pictureChecks();       // pictures on them
+std::vector<Check> textureChecks();       // fetches along footprints
+std::vector<Check> lobeChecks();          // Gaussians of normals
+std::vector<Check> convolutionChecks();   // against means over normals and pixels
+std::vector<Check> normalMethodChecks();  // every method of mapped normals
+std::vector<Check> mixtureChecks();       // their fit
+std::vector<Check> scatterChecks();       // multiple scattering
+std::vector<Check> frameChecks();         // whole frames: mapped normals, one pixel, nothing at all
+std::vector<Check> truthChecks();         // ground truths
+std::vector<Check> microdetailChecks();   // that of glints
+std::vector<Check> heightFieldChecks();   // the ray caster
+std::vector<Check> facetChecks();         // what single facets do to its rays
 
 }  // namespace glintmark

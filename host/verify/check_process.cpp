@@ -178,6 +178,7 @@ CheckResult CheckProcess::run(std::size_t check, double timeout_s,
   result.name = checks_[check].name;
   result.measure = checks_[check].measure;
   result.verdict = Verdict::kFail;
+  result.judged = false;
   result.worst = std::numeric_limits<double>::infinity();
   result.note = fmt::format("its process {}", answer.lost);
   result.seconds = watch.elapsedNs() * 1e-9;

@@ -7,10 +7,10 @@
 namespace glintmark {
 
 nlohmann::ordered_json checkResultJson(const CheckResult& r) {
-  nlohmann::ordered_json json = {{"name", r.name},      {"verdict", verdictName(r.verdict)},
-                                 {"worst", nullptr},    {"bound", r.bound},
-                                 {"of", r.measure},     {"note", r.note},
-                                 {"seconds", r.seconds}};
+  nlohmann::ordered_json json = {{"name", r.name},       {"verdict", verdictName(r.verdict)},
+                                 {"worst", nullptr},     {"bound", r.bound},
+                                 {"of", r.measure},      {"note", r.note},
+                                 {"seconds", r.seconds}, {"judged", r.judged}};
   if (std::isfinite(r.worst)) json["worst"] = r.worst;
   return json;
 }
@@ -27,6 +27,7 @@ CheckResult checkResultFromJson(const nlohmann::ordered_json& json) {
   json.at("of").get_to(r.measure);
   json.at("note").get_to(r.note);
   json.at("seconds").get_to(r.seconds);
+  r.judged = json.value("judged", true);
   return r;
 }
 

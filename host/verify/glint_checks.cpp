@@ -18,6 +18,10 @@ namespace {
 constexpr auto kZk16 = GlintMethod::kZk16;
 constexpr auto kExact = GlintMethod::kExact;
 constexpr auto kDistributed = GlintMethod::kDistributed;
+constexpr auto kDeliot = GlintMethod::kDeliotBelcour;
+constexpr auto kCorrected = GlintMethod::kDeliotCorrected;
+constexpr auto kKemppinen = GlintMethod::kKemppinen;
+constexpr auto kPublished = GlintMethod::kPublishedZk16;
 
 struct DrawCase {
   const char* name;
@@ -47,6 +51,25 @@ constexpr DrawCase kDrawCases[] = {
     {"distributed_stretched", kDistributed, {.4f, .1f}, {.02f, .05f}, 1e6f, 1, false, 16, kUsual},
     {"distributed_groove", kDistributed, {.1f, .5f}, {.1f, .02f}, 1e6f, 1, true, 16, kUsual},
     {"distributed_near", kDistributed, {.3f, .3f}, {.2f, .2f}, 3e3f, 1, false, 16, kUsual},
+    {"deliot_belcour_sparse", kDeliot, {.3f, .3f}, {.03f, .03f}, 1e6f, 0, false, 16, kUsual},
+    {"deliot_belcour_dense", kDeliot, {.3f, .3f}, {.03f, .03f}, 1e9f, 0, false, 16, kUsual},
+    {"deliot_belcour_varied", kDeliot, {.4f, .1f}, {.1f, .05f}, 1e6f, 2, false, 16, kUsual},
+    {"deliot_belcour_near", kDeliot, {.3f, .3f}, {.2f, .2f}, 3e3f, 0, false, 16, kUsual},
+    {"deliot_belcour_groove", kDeliot, {.1f, .5f}, {.1f, .02f}, 1e6f, 0, true, 16, kUsual},
+    {"deliot_corrected_sparse", kCorrected, {.3f, .3f}, {.03f, .03f}, 1e6f, 0, false, 16, kUsual},
+    {"deliot_corrected_dense", kCorrected, {.3f, .3f}, {.03f, .03f}, 1e9f, 0, false, 16, kUsual},
+    {"deliot_corrected_varied", kCorrected, {.4f, .1f}, {.1f, .05f}, 1e6f, 2, false, 16, kUsual},
+    {"deliot_corrected_near", kCorrected, {.3f, .3f}, {.2f, .2f}, 3e3f, 0, false, 16, kUsual},
+    {"deliot_corrected_groove", kCorrected, {.1f, .5f}, {.1f, .02f}, 1e6f, 0, true, 16, kUsual},
+    {"kemppinen_sparse", kKemppinen, {.3f, .3f}, {.03f, .03f}, 1e6f, 0, false, 16, kUsual},
+    {"kemppinen_dense", kKemppinen, {.3f, .3f}, {.03f, .03f}, 1e9f, 0, false, 16, kUsual},
+    {"kemppinen_varied", kKemppinen, {.4f, .1f}, {.1f, .05f}, 1e6f, 2, false, 16, kUsual},
+    {"kemppinen_near", kKemppinen, {.3f, .3f}, {.2f, .2f}, 3e3f, 0, false, 16, kUsual},
+    {"kemppinen_groove", kKemppinen, {.1f, .5f}, {.1f, .02f}, 1e6f, 0, true, 16, kUsual},
+    {"published_zk16_sparse", kPublished, {.3f, .3f}, {.03f, .03f}, 1e6f, 0, false, 16, kUsual},
+    {"published_zk16_dense", kPublished, {.3f, .3f}, {.03f, .03f}, 1e9f, 0, false, 16, kUsual},
+    {"published_zk16_varied", kPublished, {.4f, .1f}, {.1f, .05f}, 1e6f, 2, false, 16, kUsual},
+    {"published_zk16_groove", kPublished, {.1f, .5f}, {.1f, .02f}, 1e6f, 0, true, 16, kUsual},
     {"exact_sparse", kExact, {.3f, .3f}, {.03f, .03f}, 1e6f, 0, false, 16, kUsual},
     {"exact_dense", kExact, {.3f, .3f}, {.03f, .03f}, 1e9f, 0, false, 16, kUsual},
     {"exact_varied", kExact, {.3f, .3f}, {.1f, .1f}, 1e6f, 2, false, 16, kUsual},
@@ -75,6 +98,13 @@ ShadedPixels drawPixels(const CheckContext& context, const DrawCase& c,
   return shadePixels(context.bench, frame, config);
 }
 
+// How many pixels may have other draws.
+double flippedShare(GlintMethod method) {
+  return method == kPublished ? kSineHashPixelShare
+         : method == kDeliot  ? kRoundedPixelShare
+                              : kFlippedPixelShare;
+}
+
 // Pixel by pixel: the same cells, the same draws, the same radiance relative to the smooth lobe, so
 // that the approximations in the lobe stay out of it.
 Finding drawForDraw(const CheckContext& context, const DrawCase& c) {
@@ -89,7 +119,8 @@ Finding drawForDraw(const CheckContext& context, const DrawCase& c) {
   options.method = referenceRule(c.method);
   options.ka = c.ka;
 
-  Finding finding(kFlippedPixelShare);
+  const double most_flipped = flippedShare(c.method);
+  Finding finding(most_flipped);
   double different_counts = 0, flipped = 0, sum = 0, sum_reference = 0;
   for (std::size_t i = 0; i < frame.pixels.size(); ++i) {
     const reference::PixelResult expected =
@@ -114,7 +145,9 @@ Finding drawForDraw(const CheckContext& context, const DrawCase& c) {
   const auto count = static_cast<double>(frame.pixels.size());
   finding.add(flipped / count);
   finding.require(different_counts <= kThresholdCountShare * count, "too many counts differ");
-  finding.require(std::abs(sum / sum_reference - 1) <= kFlippedPixelShare, "the means differ");
+  // The published shader's fireflies come from sums of floats, and the reference has none.
+  finding.require(c.method == kPublished || std::abs(sum / sum_reference - 1) <= most_flipped,
+                  "the means differ");
   return finding;
 }
 
@@ -204,7 +237,11 @@ struct WidthCase {
 constexpr WidthCase kWidthCases[] = {{"zk16", kZk16, false, false, false},
                                      {"zk16_groove_colour_cone", kZk16, true, true, true},
                                      {"exact", kExact, false, false, false},
-                                     {"distributed", kDistributed, false, true, false}};
+                                     {"distributed", kDistributed, false, true, false},
+                                     {"deliot_belcour", kDeliot, false, true, true},
+                                     {"deliot_corrected", kCorrected, false, false, false},
+                                     {"kemppinen", kKemppinen, false, true, true},
+                                     {"published_zk16", kPublished, false, true, true}};
 
 Finding sameGlints(const CheckContext& context, const WidthCase& c) {
   HandMadeFrame frame;

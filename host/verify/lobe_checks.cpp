@@ -84,10 +84,8 @@ Finding lobesMatchReference(const CheckContext& context) {
       finding.add(std::abs(p.mean_x - lobe.mean.x) / kLobeMean);
       finding.add(std::abs(p.mean_y - lobe.mean.y) / kLobeMean);
       finding.add(std::abs(p.variance - lobe.variance) / kLobeVariance);
-      // What is shaded is the lobe the kernel found; its own rounding is checked above.
-      const reference::NormalLobe found = {p.weight, {p.mean_x, p.mean_y}, p.variance};
       const reference::LobeLight expected =
-          reference::shadeLobe(found, glm::dvec3(cases[i].light), glm::dvec3(cases[i].view), alpha);
+          reference::shadeLobe(lobe, glm::dvec3(cases[i].light), glm::dvec3(cases[i].view), alpha);
       finding.add(std::abs(p.specular - expected.specular) /
                   (kMaskingTolerance * expected.specular + kDark));
       finding.add(std::abs(p.cosine - expected.cosine) / kLobeCosine);
@@ -141,7 +139,7 @@ struct Mixture {
 };
 
 Mixture probeMixture(const CheckContext& context, const std::vector<glm::vec4>& moments,
-                     float alpha) {
+                     float alpha, float true_spread = 1) {
   const auto lanes = static_cast<std::size_t>(context.lanes);
   std::vector<float> in(16 * lanes), out(17 * lanes);
   for (std::size_t k = 0; k < 4; ++k)
@@ -150,7 +148,7 @@ Mixture probeMixture(const CheckContext& context, const std::vector<glm::vec4>& 
         in[(4 * k + c) * lanes + lane] = moments[k][static_cast<int>(c)];
   Buffer output(context.bench.device, out.size() * 4, BufferPurpose::kProbe, "a mixture");
   const std::vector<KernelArg> args = {probeData(context.bench, in, "moments"), output,
-                                       static_cast<std::uint32_t>(lanes), alpha};
+                                       static_cast<std::uint32_t>(lanes), alpha, true_spread};
   probeKernel(context.bench, "probes/probe_lobe.cl", "probeMixture",
               fmt::format("-D WIDTH={} -D DIFFUSE=1 -D NORMAL_MAP=1 -D LOBES=4", lanes))
       .launch(args, 1, 1);
@@ -187,6 +185,80 @@ Finding closeLobesMerge(const CheckContext& context) {
   return finding;
 }
 
+// What is shaded of mixtures of any spread is what all of their lobes together are: lobes become
+// one only where the base lobe hides them. Relative to the brightest of a mixture's directions.
+Finding mergingIsHidden(const CheckContext& context) {
+  Finding finding(kMergedLobes);
+  std::mt19937 random(17);
+  const auto unit = [&] { return std::uniform_real_distribution<double>()(random); };
+  int merged = 0, kept = 0;
+  for (int k = 0; k < 60; ++k) {
+    const double alpha = 0.1 + 0.3 * unit(), spread = alpha * std::pow(10.0, -1.5 + 1.5 * unit());
+    const glm::vec2 centre(0.6 * (unit() - 0.5), 0.6 * (unit() - 0.5));
+    std::vector<glm::vec4> moments;
+    for (int i = 0; i < 4; ++i) {
+      const glm::vec2 off(static_cast<float>(spread * (unit() - 0.5)),
+                          static_cast<float>(spread * (unit() - 0.5)));
+      moments.push_back(
+          momentsOf(0.25f, centre + off, static_cast<float>(0.05 * spread * spread * unit())));
+    }
+    const Mixture shown = probeMixture(context, moments, static_cast<float>(alpha));
+    merged += shown.used == 1;
+    kept += shown.used == 4;
+    const glm::dvec3 view(0.3, -0.2, std::sqrt(1 - 0.13));
+    std::vector<double> got, want;
+    for (int d = 0; d < 200; ++d) {
+      const glm::dvec3 m = glm::normalize(
+          glm::dvec3(glm::dvec2(centre) + 3 * alpha * glm::dvec2(unit() - 0.5, unit() - 0.5), 1));
+      const glm::dvec3 light = 2 * glm::dot(view, m) * m - view;
+      if (light.z < 0.1) continue;
+      double all = 0, some = 0;
+      for (int i = 0; i < 4; ++i) {
+        const glm::vec4& l = shown.lobes[i];
+        all += reference::shadeLobe(
+                   reference::lobeFromMoments(glm::dvec4(moments[static_cast<std::size_t>(i)])),
+                   light, view, alpha)
+                   .specular;
+        if (i < shown.used)
+          some += reference::shadeLobe({l[0], {l[1], l[2]}, l[3]}, light, view, alpha).specular;
+      }
+      got.push_back(some);
+      want.push_back(all);
+    }
+    const double brightest = *std::max_element(want.begin(), want.end());
+    for (std::size_t d = 0; d < got.size(); ++d)
+      finding.add(std::abs(got[d] - want[d]) / brightest);
+  }
+  finding.require(merged > 10 && kept > 10, "too few mixtures become one lobe, or stay four");
+  return finding;
+}
+
+// Smaller than the finest texels, a footprint shows of its lobes' variance the share that lies
+// under it: means move towards their own by its root.
+Finding magnifiedLobes(const CheckContext& context) {
+  const glm::vec2 means[] = {{0.3f, 0.2f}, {-0.2f, 0.3f}, {0.1f, -0.4f}, {0.4f, -0.1f}};
+  const float weights[] = {0.4f, 0.3f, 0.2f, 0.1f}, variances[] = {0.01f, 0.02f, 0, 0.03f};
+  std::vector<glm::vec4> moments;
+  glm::dvec2 centre(0);
+  for (int i = 0; i < 4; ++i) {
+    moments.push_back(momentsOf(weights[i], means[i], variances[i]));
+    centre += static_cast<double>(weights[i]) * glm::dvec2(means[i]);
+  }
+  Finding finding(1);
+  for (const double share : {1.0, 0.6, 0.05}) {
+    const Mixture shown = probeMixture(context, moments, 0.01f, static_cast<float>(share));
+    finding.require(shown.used == 4, "four lobes became fewer");
+    for (int i = 0; i < 4; ++i) {
+      const glm::dvec2 want = centre + std::sqrt(share) * (glm::dvec2(means[i]) - centre);
+      finding.add(std::abs(shown.lobes[i][0] - weights[i]) / kLobeMean);
+      finding.add(std::abs(shown.lobes[i][1] - want.x) / kLobeMean);
+      finding.add(std::abs(shown.lobes[i][2] - want.y) / kLobeMean);
+      finding.add(std::abs(shown.lobes[i][3] - share * variances[i]) / kLobeVariance);
+    }
+  }
+  return finding;
+}
+
 Finding weightlessLobesGoLast(const CheckContext& context) {
   const Mixture packed = probeMixture(context,
                                       {momentsOf(0, {0, 0}, 0), momentsOf(0.7f, {0.5f, 0}, 0.01f),
@@ -208,6 +280,8 @@ std::vector<Check> lobeChecks() {
   return {{"lobe/reference", "error in units of its bound", lobesMatchReference},
           {"lobe/weight_0_variance_0", "values NaN, infinite or negative", hardLobes},
           {"lobe/close_lobes_merge", "error in units of its bound", closeLobesMerge},
+          {"lobe/merging_is_hidden", "error over the brightest", mergingIsHidden},
+          {"lobe/magnified", "error in units of its bound", magnifiedLobes},
           {"lobe/weight_0_last", "error in units of its bound", weightlessLobesGoLast},
           {"lobe/same_bits", "lobes that differ from one lane's", sameLobes}};
 }

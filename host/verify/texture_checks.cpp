@@ -97,6 +97,31 @@ Finding isotropicProbe(const CheckContext& context) {
   return finding;
 }
 
+// Between the centres of two texels the interpolated variance is a sixth of their squared
+// difference; a footprint of p texels has p^2 / 12 of its own, never more: p^2 / 2 of it along each
+// axis of the footprint's ellipse.
+Finding magnifiedFootprints(const CheckContext& context) {
+  const TestTexture texture = randomTexture(64, 32, 1, 7);
+  const std::vector<TexturePixel> pixels = randomFootprints(1000, 13);
+  const auto fetched =
+      fetchPixels(context.bench, texture, 1, pixels, kMostProbes, true, context.lanes);
+  Finding finding(kLevelTolerance);
+  int small = 0;
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const TexturePixel& p = pixels[i];
+    const glm::dvec2 size(64, 32), x = glm::dvec2(p.dudx, p.dvdx) * size,
+                                   y = glm::dvec2(p.dudy, p.dvdy) * size;
+    const double trace = glm::dot(x, x) + glm::dot(y, y), area = x.x * y.y - x.y * y.x;
+    const double root = std::sqrt(std::max(trace * trace - 4 * area * area, 0.0));
+    const double want =
+        (std::min(0.5 * (trace + root), 2.0) + std::min(0.5 * (trace - root), 2.0)) / 4;
+    finding.add(std::abs(fetched[i].true_spread - want));
+    small += want < 0.9;
+  }
+  finding.require(small > 100, "too few footprints are small");
+  return finding;
+}
+
 Finding sameFetches(const CheckContext& context) {
   const TestTexture texture = randomTexture(48, 31, 4, 3);
   const std::vector<TexturePixel> pixels = randomFootprints(333, 5);
@@ -126,6 +151,7 @@ std::vector<Check> textureChecks() {
                 {{"texture/clamped_borders", "absolute error", clampedBorders},
                  {"texture/bad_derivatives", "fetches out of range", badDerivatives},
                  {"texture/isotropic_level", "error of the level", isotropicProbe},
+                 {"texture/magnified", "error of the share of variance", magnifiedFootprints},
                  {"texture/same_bits", "values that differ from one lane's", sameFetches}});
   return checks;
 }

@@ -27,8 +27,10 @@ kernel void probeLobe(global const float* in, global float* out, uint count, flo
 
 #if LOBES > 1
 // in: planes of `count` entries, four moments of each lobe. out: how many lobes some lane has, then
-// weight, mean x, mean y, variance of each lobe, 0 for those that are not in use.
-kernel void probeMixture(global const float* in, global float* out, uint count, float alpha) {
+// weight, mean x, mean y, variance of each lobe, 0 for those that are not in use. true_spread: of
+// the probes that read the moments.
+kernel void probeMixture(global const float* in, global float* out, uint count, float alpha,
+                         float true_spread) {
   const size_t i = get_global_id(0) * WIDTH;
   if (i >= count) return;
   vfloat4 moments[LOBES];
@@ -40,7 +42,7 @@ kernel void probeMixture(global const float* in, global float* out, uint count, 
     moments[k].w = loadFloat(in, plane + 3 * (size_t)count);
   }
   MixedLobe lobes[LOBES];
-  const int used = mixtureLobes(moments, (vfloat)(1.0f), alpha * alpha, lobes);
+  const int used = mixtureLobes(moments, (vfloat)(true_spread), alpha * alpha, lobes);
   storeFloat((vfloat)((float)used), out, i);
   for (int k = 0; k < LOBES; ++k) {
     const float on = k < used ? 1.0f : 0.0f;

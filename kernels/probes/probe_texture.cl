@@ -8,7 +8,7 @@
 WIDE vfloat loadFloat(global const uint* p, size_t i) { return bitsToFloat(loadUint(p, i)); }
 
 // footprints: planes u, v [2^-32], dudx, dvdx, dudy, dvdy [float bits] of `count` entries each.
-// out: per component of the texel a plane; then count and level of the probes.
+// out: per component of the texel a plane; then count, level and true spread of the probes.
 kernel void probeTexture(constant const MipTexture* texture, global const float4* texels,
                          global const uint* footprints, global float* out, uint count,
                          int most_probes, int border) {
@@ -30,4 +30,5 @@ kernel void probeTexture(constant const MipTexture* texture, global const float4
   const size_t last = 4 * PROBE_TEXEL_SIZE;
   storeFloat(toFloat(line.count), out, last * count + i);
   storeFloat(line.level, out, (last + 1) * count + i);
+  storeFloat(line.true_spread, out, (last + 2) * count + i);
 }

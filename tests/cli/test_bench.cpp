@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
 #include <set>
 #include <sstream>
 #include <thread>
@@ -145,6 +146,33 @@ TEST(Bench, EffectsOfOneSetResumedAfterAnInterrupt) {
   resumed.interrupt();
   resumed.wait();
   EXPECT_TRUE(readFile(folder / "r/records.jsonl").starts_with(kept));
+}
+
+TEST(Bench, MethodsOfGlintsSideBySide) {
+  const TempFolder folder;
+  const ProcessResult result =
+      runGlintmark({"bench", "glints", "--quiet", "--view", "aspect4", "--size", "160x90", "--reps",
+                    "2", "-o", folder / "r"});
+  ASSERT_EQ(result.exit_code, 0) << result.err << result.out;
+  std::set<std::string> methods;
+  std::map<std::string, double> visited;
+  for (const Record& record : readResults(folder / "r/results.json").records) {
+    EXPECT_TRUE(record.valid) << record.case_ << " " << record.metric << ": " << record.note;
+    const std::string method = record.case_.substr(0, record.case_.find('/'));
+    methods.insert(method);
+    if (record.case_ == method + "/aspect=4/lambda=10/lights=3" && record.metric == "visited_mean")
+      visited[method] = record.value.median;
+    if (record.metric == "error_over_best") {
+      EXPECT_GE(record.value.median, 1) << record.case_;
+    }
+  }
+  for (const char* method : {"zk16", "distributed", "deliot_belcour", "kemppinen"})
+    EXPECT_TRUE(methods.contains(method)) << method;
+  EXPECT_EQ(visited["deliot_belcour"], 3 * 48);
+  EXPECT_EQ(visited["kemppinen"], 3 * 32);
+  EXPECT_EQ(visited["zk16"], visited["distributed"]);
+  std::istringstream lines(readFile(folder / "r/table.txt"));
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
 }
 
 TEST(Bench, ResumingLooksAtWhatFilesHold) {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <sstream>
 
 #include "host/core/atomic_file.h"
@@ -42,6 +44,19 @@ TEST(Render, ExrHoldsRadiance) {
   }
   EXPECT_GT(sum, 64 * 36);  // the plane covers every pixel: alpha alone adds up to that
   EXPECT_EQ(folder.entryCount(), 1u);
+}
+
+TEST(Render, NamesTheModuleThatIsMissingBesideTheProgram) {
+  const TempFolder folder;
+  const std::string program = folder / "glintmark", log = folder / "log.txt",
+                    module = folder / "glintmark_codec.so", picture = folder / "a.exr";
+  std::filesystem::copy_file(GLINTMARK_BINARY_DIR "/bin/glintmark", program);
+  const std::string command =
+      program + " render screen_plane --size 32x18 -o " + picture + " >" + log + " 2>&1";
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 2);
+  const std::string said = readFile(log);
+  EXPECT_NE(said.find("pictures need " + module), std::string::npos) << said;
+  EXPECT_FALSE(std::filesystem::exists(picture));
 }
 
 TEST(Render, PicturesThatAreNotFiniteAreNotSilent) {

@@ -1,7 +1,5 @@
 #include "host/report/picture/image_io.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
+#include "host/report/picture/load_codec.h"
 
 namespace glintmark {
 namespace {
@@ -44,23 +43,10 @@ void requireConsistent(const Image& image, const std::filesystem::path& path) {
   }
 }
 
-// Encodes in memory and writes the bytes ourselves: OpenImageIO does not report every failed write
-// of a PNG.
-void encodeFile(const std::string& format, const OIIO::ImageSpec& spec,
-                const OIIO::TypeDesc& pixel_type, const void* pixels,
-                const std::filesystem::path& path) {
-  auto output = OIIO::ImageOutput::create(format);
-  if (!output) {
-    throw Error(
-        fmt::format("cannot write {}: this OpenImageIO has no {} support", path.string(), format));
-  }
-  std::vector<unsigned char> bytes;
-  OIIO::Filesystem::IOVecOutput memory(bytes);
-  const bool encoded = output->set_ioproxy(&memory) && output->open(path.string(), spec) &&
-                       output->write_image(pixel_type, pixels) && output->close();
-  if (!encoded) {
-    throw Error(fmt::format("cannot write {}: {}", path.string(), output->geterror()));
-  }
+void encodeFile(const PixelBlock& block, const std::filesystem::path& path) {
+  std::string fault;
+  const std::vector<unsigned char> bytes = imageCodec().encode(block, fault);
+  if (bytes.empty()) throw Error(fmt::format("cannot write {}: {}", path.string(), fault));
   writeFile(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
@@ -76,10 +62,11 @@ std::string requireImageExtension(const std::filesystem::path& path) {
 
 void writeExr(const Image& image, const std::filesystem::path& path) {
   requireConsistent(image, path);
-  OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::FLOAT);
-  spec.channelnames = channelNames(image, path);
-  spec.attribute("compression", "zip");
-  encodeFile("openexr", spec, OIIO::TypeDesc::FLOAT, image.pixels.data(), path);
+  encodeFile({.width = image.width,
+              .height = image.height,
+              .channel_names = channelNames(image, path),
+              .floats = image.pixels},
+             path);
 }
 
 void writePng(const Image& image, const std::filesystem::path& path) {
@@ -94,9 +81,11 @@ void writePng(const Image& image, const std::filesystem::path& path) {
     const float clamped = value > 0.0f ? std::min(value, 1.0f) : 0.0f;
     return static_cast<std::uint8_t>(std::lround(clamped * 255.0f));
   });
-  OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::UINT8);
-  spec.attribute("oiio:ColorSpace", "sRGB");
-  encodeFile("png", spec, OIIO::TypeDesc::UINT8, bytes.data(), path);
+  encodeFile({.width = image.width,
+              .height = image.height,
+              .channel_names = channelNames(image, path),
+              .bytes = bytes},
+             path);
 }
 
 }  // namespace glintmark

@@ -1,5 +1,4 @@
-// Image files. image_io.cpp, read_image.cpp and text_coverage.cpp are the only code that includes
-// OpenImageIO.
+// Image files.
 #pragma once
 #include <filesystem>
 #include <string>

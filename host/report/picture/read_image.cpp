@@ -1,6 +1,4 @@
-// What image files hold, by OpenImageIO.
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
+// What image files hold.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -14,6 +12,7 @@
 #include "host/core/free_memory.h"
 #include "host/report/picture/image_io.h"
 #include "host/report/picture/image_layers.h"
+#include "host/report/picture/load_codec.h"
 
 namespace glintmark {
 namespace {
@@ -35,14 +34,17 @@ class ImageSource {
  public:
   explicit ImageSource(const std::filesystem::path& file) : name_(file.string()) {
     { const InputFile is_regular(file); }
-    open(name_, nullptr);
+    std::string fault;
+    file_ = imageCodec().open(name_, fault);
+    requireFlat(fault);
   }
-  ImageSource(std::string_view bytes, const std::string& name)
-      : name_(name), memory_(std::in_place, bytes.data(), bytes.size()) {
-    open(bytes.starts_with("\xFF\xD8")  ? "jpeg"
-         : bytes.starts_with("\x89PNG") ? "png"
-                                        : "openexr",
-         &*memory_);
+  ImageSource(std::string_view bytes, const std::string& name) : name_(name) {
+    const char* format = bytes.starts_with("\xFF\xD8")  ? "jpeg"
+                         : bytes.starts_with("\x89PNG") ? "png"
+                                                        : "openexr";
+    std::string fault;
+    file_ = imageCodec().open(format, bytes, fault);
+    requireFlat(fault);
   }
 
   [[noreturn]] void fail(const std::string& reason) const {
@@ -52,59 +54,48 @@ class ImageSource {
   /// All parts of files that have parts; of pages, frames and smaller copies only the first.
   std::vector<ImageLayer> layers() {
     std::vector<ImageLayer> all;
-    const bool has_parts = std::string_view(input_->format_name()) == "openexr";
-    for (int part = 0; part == 0 || (has_parts && input_->seek_subimage(part, 0)); ++part) {
-      const OIIO::ImageSpec spec = input_->spec(part, 0);
-      addLayers(all, part, std::string(spec.get_string_attribute("oiio:subimagename")),
-                spec.channelnames);
+    for (int number = 0; number == 0 || file_->hasParts(); ++number) {
+      const std::optional<StoredPart> part = file_->part(number);
+      if (!part) break;
+      addLayers(all, number, part->name, part->channel_names);
     }
-    OIIO::geterror();
-    input_->geterror();
     return all;
   }
 
   /// Channels [begin, end) of a part as they lie in the file, then turned as a viewer shows them.
-  Image read(int part, int begin, int end) {
-    const OIIO::ImageSpec spec = input_->spec(part, 0);
+  Image read(int number, int begin, int end) {
+    const StoredPart part = partOf(number);
     const int channels = end - begin;
-    checkSize(spec, channels);
-    Image image(spec.width, spec.height, channels);
-    image.channel_names.assign(spec.channelnames.begin() + begin, spec.channelnames.begin() + end);
-    if (spec.format == OIIO::TypeDesc::UINT8) image.step = 1.0f / 255;
-    if (spec.format == OIIO::TypeDesc::UINT16) image.step = 1.0f / 65535;
-    const bool read =
-        input_->read_image(part, 0, begin, end, OIIO::TypeDesc::FLOAT, image.pixels.data());
-    // Some readers go on after what they only warn of, with pixels that are not the file's.
-    if (!read || input_->has_error()) fail(input_->geterror());
-    return turned(framed(std::move(image), spec), spec.get_int_attribute("Orientation", 1));
+    checkSize(part, channels);
+    Image image(part.width, part.height, channels);
+    image.channel_names.assign(part.channel_names.begin() + begin,
+                               part.channel_names.begin() + end);
+    image.step = part.step;
+    const std::string fault = file_->read(number, begin, end, image.pixels);
+    if (!fault.empty()) fail(fault);
+    return turned(framed(std::move(image), part), part.orientation);
   }
 
-  int channelCount(int part) { return input_->spec(part, 0).nchannels; }
+  int channelCount(int number) { return static_cast<int>(partOf(number).channel_names.size()); }
 
  private:
-  void open(const std::string& file, OIIO::Filesystem::IOMemReader* memory) {
-    OIIO::geterror();
-    // Colours that alpha has not multiplied stay as they are: normals and heights keep their
-    // values.
-    OIIO::ImageSpec hints;
-    hints.attribute("oiio:UnassociatedAlpha", 1);
-    if (memory == nullptr) {
-      input_ = OIIO::ImageInput::open(file, &hints);
-    } else {
-      input_ = OIIO::ImageInput::create(file);
-      OIIO::ImageSpec found;
-      if (input_ && !(input_->set_ioproxy(memory) && input_->open("memory." + file, found, hints)))
-        fail(input_->geterror());
-    }
-    if (!input_) fail(OIIO::geterror());
-    if (input_->spec().depth > 1) fail("it has depth, expected a flat picture");
-    if (input_->spec().deep) fail("it holds deep pixels, expected flat ones");
+  void requireFlat(const std::string& fault) {
+    if (!file_) fail(fault);
+    const StoredPart first = partOf(0);
+    if (first.depth > 1) fail("it has depth, expected a flat picture");
+    if (first.deep) fail("it holds deep pixels, expected flat ones");
   }
 
-  void checkSize(const OIIO::ImageSpec& spec, int channels) const {
-    const std::int64_t width = std::max(spec.width, spec.full_width);
-    const std::int64_t height = std::max(spec.height, spec.full_height);
-    if (spec.width < 1 || spec.height < 1 || width > kMaxSide_px || height > kMaxSide_px)
+  StoredPart partOf(int number) {
+    std::optional<StoredPart> part = file_->part(number);
+    if (!part) fail(fmt::format("it has no part {}", number));
+    return *part;
+  }
+
+  void checkSize(const StoredPart& part, int channels) const {
+    const std::int64_t width = std::max(part.width, part.full_width);
+    const std::int64_t height = std::max(part.height, part.full_height);
+    if (part.width < 1 || part.height < 1 || width > kMaxSide_px || height > kMaxSide_px)
       fail(fmt::format("it has {}x{} pixels, expected 1 to {} each way", width, height,
                        kMaxSide_px));
     // The pixels, and what the reader holds of them.
@@ -113,16 +104,16 @@ class ImageSource {
   }
 
   /// The display window where the stored pixels cover another one; black where there are none.
-  Image framed(Image image, const OIIO::ImageSpec& spec) const {
-    const bool whole = spec.x == spec.full_x && spec.y == spec.full_y &&
-                       spec.width == spec.full_width && spec.height == spec.full_height;
-    if (whole || spec.full_width < 1 || spec.full_height < 1) return image;
-    Image frame(spec.full_width, spec.full_height, image.channels);
+  Image framed(Image image, const StoredPart& part) const {
+    const bool whole = part.x == part.full_x && part.y == part.full_y &&
+                       part.width == part.full_width && part.height == part.full_height;
+    if (whole || part.full_width < 1 || part.full_height < 1) return image;
+    Image frame(part.full_width, part.full_height, image.channels);
     frame.channel_names = image.channel_names;
     frame.step = image.step;
     for (int y = 0; y < frame.height; ++y)
       for (int x = 0; x < frame.width; ++x) {
-        const int from_x = x + spec.full_x - spec.x, from_y = y + spec.full_y - spec.y;
+        const int from_x = x + part.full_x - part.x, from_y = y + part.full_y - part.y;
         if (from_x < 0 || from_y < 0 || from_x >= image.width || from_y >= image.height) continue;
         std::ranges::copy(image.at(from_x, from_y), frame.at(x, y).begin());
       }
@@ -150,8 +141,7 @@ class ImageSource {
   }
 
   std::string name_;
-  std::optional<OIIO::Filesystem::IOMemReader> memory_;
-  std::unique_ptr<OIIO::ImageInput> input_;
+  std::unique_ptr<StoredImage> file_;
 };
 
 bool isLuminanceChroma(const ImageLayer& layer, const std::vector<int>& wanted) {

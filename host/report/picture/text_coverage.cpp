@@ -1,12 +1,12 @@
 #include "host/report/picture/text_coverage.h"
 
-#include <OpenImageIO/imagebuf.h>
-#include <OpenImageIO/imagebufalgo.h>
 #include <fmt/format.h>
 
 #include <cmath>
+#include <vector>
 
 #include "host/core/error.h"
+#include "host/report/picture/load_codec.h"
 
 namespace glintmark {
 namespace {
@@ -19,12 +19,13 @@ int outputPx(int fine_px, bool up) {
 }
 
 // Means of kOversampling x kOversampling pixels.
-Image averaged(const OIIO::ImageBuf& fine, int width, int height) {
+Image averaged(const std::vector<float>& fine, int width, int height) {
   Image image(width, height, 1);
-  OIIO::ImageBuf::ConstIterator<float> pixel(fine);
-  for (; !pixel.done(); ++pixel)
-    image.at(pixel.x() / kOversampling, pixel.y() / kOversampling)[0] +=
-        pixel[0] / (kOversampling * kOversampling);
+  const int fine_width = width * kOversampling;
+  for (std::size_t i = 0; i < fine.size(); ++i) {
+    const int x = static_cast<int>(i) % fine_width, y = static_cast<int>(i) / fine_width;
+    image.at(x / kOversampling, y / kOversampling)[0] += fine[i] / (kOversampling * kOversampling);
+  }
   return image;
 }
 
@@ -39,23 +40,20 @@ TextCoverage textCoverage(const std::string& text, int size_px, const std::files
   TextCoverage coverage;
   if (text.empty()) return coverage;
   const int fine_px = size_px * kOversampling;
-  const OIIO::ROI box = OIIO::ImageBufAlgo::text_size(text, fine_px, font.string());
-  if (!box.defined() || box.width() <= 0 || box.height() <= 0)
+  const InkBox ink = imageCodec().inkBox(text, fine_px, font.string());
+  if (ink.width <= 0 || ink.height <= 0)
     throw Error(
         fmt::format("cannot write '{}' into a picture with the font {}", text, font.string()));
-  coverage.left = outputPx(box.xbegin, false);
-  coverage.top = outputPx(box.ybegin, false);
-  const int width = outputPx(box.xend, true) - coverage.left;
-  const int height = outputPx(box.yend, true) - coverage.top;
+  coverage.left = outputPx(ink.x, false);
+  coverage.top = outputPx(ink.y, false);
+  const int width = outputPx(ink.x + ink.width, true) - coverage.left;
+  const int height = outputPx(ink.y + ink.height, true) - coverage.top;
 
-  OIIO::ImageBuf fine(
-      OIIO::ImageSpec(width * kOversampling, height * kOversampling, 1, OIIO::TypeDesc::FLOAT));
-  OIIO::ImageBufAlgo::zero(fine);
-  const float ink = 1;
-  if (!OIIO::ImageBufAlgo::render_text(fine, -coverage.left * kOversampling,
-                                       -coverage.top * kOversampling, text, fine_px, font.string(),
-                                       ink))
-    throw Error(fmt::format("cannot write '{}' into a picture: {}", text, fine.geterror()));
+  const InkBox box = {coverage.left * kOversampling, coverage.top * kOversampling,
+                      width * kOversampling, height * kOversampling};
+  std::vector<float> fine(static_cast<std::size_t>(box.width) * box.height);
+  const std::string fault = imageCodec().drawInk(text, fine_px, font.string(), box, fine);
+  if (!fault.empty()) throw Error(fmt::format("cannot write '{}' into a picture: {}", text, fault));
   coverage.share = averaged(fine, width, height);
   return coverage;
 }

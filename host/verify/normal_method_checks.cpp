@@ -1,0 +1,144 @@
+// Mapped normals by every method against brute force: a footprint that holds a whole map shows the
+// mean over its normals of the base lobe around each, [TAN05] Eq. 3, with no moments, no mixtures
+// and no levels.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "host/core/angles.h"
+#include "host/frame/frame_renderer.h"
+#include "host/harness/small_scenes.h"
+#include "host/harness/tolerances.h"
+#include "host/reference/beckmann.h"
+#include "host/verify/check_groups.h"
+
+namespace glintmark {
+namespace {
+
+constexpr int kSize_px = 24;
+constexpr double kUvPerUnit = 2000;  // hundreds of maps under every pixel
+
+// Two by two texels of the given slopes.
+NormalMap mapOfSlopes(const std::vector<glm::vec2>& slopes) {
+  NormalMap map;
+  map.name = "slopes";
+  map.width_px = map.height_px = 2;
+  for (std::size_t i = 0; i < 4; ++i)
+    map.normals.push_back(glm::normalize(glm::vec3(slopes[i % slopes.size()], 1)));
+  return map;
+}
+
+Scene floorOf(const NormalMap& map) {
+  Scene scene = mappedFloor(map);
+  for (auto& uv : scene.mesh.uvs) uv *= static_cast<float>(kUvPerUnit);
+  scene.materials[0].params.surface.f0 = {0.04f, 0.5f, 0.9f, 0};
+  scene.materials[0].params.surface.albedo = {0.3f, 0.2f, 0.1f, 0};
+  return scene;
+}
+
+glm::dvec3 rgb(const float4& v) {
+  return {v.x, v.y, v.z};
+}
+
+// The floor's tangent frame, in which the map stands: z up, x along u, y along v.
+glm::dvec3 inFloor(const glm::dvec3& w) {
+  return {w.x, -w.z, w.y};
+}
+
+// What the surface of normal `n` (tangent space) makes of the scene's lights.
+glm::dvec3 shadeNormal(const Scene& scene, const glm::dvec3& n, const glm::dvec3& view) {
+  const SurfaceMaterial& surface = scene.materials[0].params.surface;
+  const glm::dvec3 t = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), n)), b = glm::cross(n, t);
+  const auto local = [&](const glm::dvec3& w) {
+    return glm::dvec3(glm::dot(t, w), glm::dot(b, w), glm::dot(n, w));
+  };
+  glm::dvec3 sum(0);
+  for (const ConeLight& light : scene.lights) {
+    const glm::dvec3 i = local(inFloor(glm::normalize(rgb(light.direction)))), o = local(view);
+    const glm::dvec3 specular = reference::brdfTimesCosine(
+        i, o, glm::dvec2(surface.alpha_g.x, surface.alpha_g.y), rgb(surface.f0));
+    sum += rgb(light.irradiance) * (static_cast<double>(surface.intensity) * specular +
+                                    rgb(surface.albedo) * std::max(i.z, 0.0) / kPi);
+  }
+  return sum;
+}
+
+struct MethodCase {
+  const char* name;
+  NormalMethod method;
+  std::vector<glm::vec2> slopes;  // of the texels
+  bool of_mean;                   // the method shows the mean normal alone
+  double bound;                   // relative
+  bool half = false;
+};
+
+// Four normals far apart, which a mixture of four keeps; two clusters along a diagonal; a square,
+// whose variance is the same along both axes; one tilted normal.
+const std::vector<glm::vec2> kApart = {
+    {0.35f, 0.3f}, {-0.4f, 0.25f}, {0.3f, -0.35f}, {-0.3f, -0.3f}};
+const std::vector<glm::vec2> kDiagonal = {
+    {0.22f, 0.02f}, {0.08f, -0.12f}, {0.18f, -0.02f}, {0.12f, -0.08f}};
+const std::vector<glm::vec2> kSquare = {{0.1f, 0.1f}, {-0.1f, 0.1f}, {0.1f, -0.1f}, {-0.1f, -0.1f}};
+const std::vector<glm::vec2> kTilted = {{0.2f, -0.1f}};
+
+const std::vector<MethodCase>& methodCases() {
+  static const std::vector<MethodCase> cases = {
+      {"mip_tilted", NormalMethod::kMip, kTilted, false, kTiltedLobe},
+      {"mip_mean", NormalMethod::kMip, kDiagonal, true, kTiltedLobe},
+      {"fixed_tilted", NormalMethod::kFixed, kTilted, false, kTiltedLobe},
+      {"toksvig_tilted", NormalMethod::kToksvig, kTilted, false, kTiltedLobe},
+      {"toksvig_square", NormalMethod::kToksvig, kSquare, false, kGaussianOfNormals},
+      {"lean_tilted", NormalMethod::kLean, kTilted, false, kTiltedLobe},
+      {"lean_diagonal", NormalMethod::kLean, kDiagonal, false, kGaussianOfNormals},
+      {"fournier_tilted", NormalMethod::kFournier, kTilted, false, kPhongPeaks},
+      {"fournier_apart", NormalMethod::kFournier, kApart, false, kPhongPeaks},
+      {"gmm_tilted", NormalMethod::kGmm, kTilted, false, kTiltedLobe},
+      {"gmm_apart", NormalMethod::kGmm, kApart, false, kTiltedLobe},
+      {"gmm_half", NormalMethod::kGmm, kApart, false, kTiltedLobe, true}};
+  return cases;
+}
+
+// From above and from 30 degrees. Relative to the pixel, where it is not dark.
+Finding methodIsTheMean(const CheckContext& context, const MethodCase& c) {
+  const NormalMap map = mapOfSlopes(c.slopes);
+  const Scene scene = floorOf(map);
+  glm::dvec3 mean(0);
+  for (const glm::vec3& n : map.normals) mean += glm::dvec3(n);
+  ShadingOptions options{.width_px = kSize_px, .height_px = kSize_px, .lanes = context.lanes};
+  options.normal_method = c.method;
+  options.half_texels = c.half;
+  const auto textures = std::make_shared<NormalTextures>(context.bench.device);
+  Finding finding(c.bound);
+  for (const double angle_deg : {80.0, 30.0}) {
+    FrameRenderer renderer(context.bench.device, scene, lookingDown(angle_deg, 3), options, 1,
+                           textures);
+    renderer.prepare();
+    renderer.shade();
+    const Image image = renderer.readRadiance();
+    for (int y = 0; y < kSize_px; ++y)
+      for (int x = 0; x < kSize_px; ++x) {
+        const glm::dvec3 view = inFloor(-glm::normalize(renderer.camera().ray(x, y)));
+        glm::dvec3 want(0);
+        for (const glm::vec3& n : map.normals)
+          want += 0.25 * shadeNormal(scene, glm::dvec3(n), view);
+        if (c.of_mean) want = shadeNormal(scene, glm::normalize(mean), view);
+        for (std::size_t k = 0; k < 3; ++k)
+          finding.add(std::abs(image.at(x, y)[k] / want[static_cast<int>(k)] - 1));
+      }
+  }
+  return finding;
+}
+
+}  // namespace
+
+std::vector<Check> normalMethodChecks() {
+  std::vector<Check> checks;
+  for (const MethodCase& c : methodCases())
+    checks.push_back({std::string("normal_method/") + c.name, "error of the mean over normals",
+                      [&c](const CheckContext& context) { return methodIsTheMean(context, c); }});
+  return checks;
+}
+
+}  // namespace glintmark
