@@ -146,6 +146,25 @@ Finding methodIsTheMean(const CheckContext& context, const MethodCase& c) {
   return finding;
 }
 
+// Lobes stored as halves are those stored as floats, to their 11 bits.
+Finding halvesAreFloats(const CheckContext& context) {
+  const Scene scene = floorOf(mapOfSlopes(kClusters));
+  const auto textures = std::make_shared<NormalTextures>(context.bench.device);
+  Image images[2];
+  for (const bool half : {false, true}) {
+    ShadingOptions options{.width_px = kSize_px, .height_px = kSize_px, .lanes = context.lanes};
+    options.half_texels = half;
+    FrameRenderer renderer(context.bench.device, scene, lookingDown(50, 3), options, 1, textures);
+    renderer.prepare();
+    renderer.shade();
+    images[half ? 1 : 0] = renderer.readRadiance();
+  }
+  Finding finding(2e-3);
+  for (std::size_t i = 0; i < images[0].pixels.size(); ++i)
+    finding.add(std::abs(images[1].pixels[i] / images[0].pixels[i] - 1));
+  return finding;
+}
+
 }  // namespace
 
 std::vector<Check> normalMethodChecks() {
@@ -153,6 +172,7 @@ std::vector<Check> normalMethodChecks() {
   for (const MethodCase& c : methodCases())
     checks.push_back({std::string("normal_method/") + c.name, "error of the mean over normals",
                       [&c](const CheckContext& context) { return methodIsTheMean(context, c); }});
+  checks.push_back({"normal_method/halves", "relative difference from floats", halvesAreFloats});
   return checks;
 }
 
