@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -10,6 +11,7 @@
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
 #include "host/core/trace.h"
+#include "host/experiment/zoom_strip.h"
 #include "host/frame/frame_renderer.h"
 #include "host/frame/shading_options.h"
 #include "host/ocl/device_clock.h"
@@ -29,6 +31,7 @@ constexpr GlintMethod kRenderMethod = GlintMethod::kDistributed;
 struct RenderOptions {
   std::string scene, view, output, aov_output, trace;
   std::string size = "1920x1080", method = choiceName(kRenderMethod);
+  int zoom = 0;  // octaves; 0: one picture
   bool no_glints = false;
   bool star = false, star_chosen = false;
   std::optional<double> exposure;
@@ -75,6 +78,22 @@ bool coversNothing(const Image& radiance) {
   return true;
 }
 
+int runZoom(const CommonOptions& common, const RenderOptions& options,
+            const ShadingOptions& shading) {
+  if (std::filesystem::path(options.output).extension() != ".png")
+    throw Error(fmt::format("--output '{}' must end in .png: a zoom is a strip of pictures",
+                            options.output));
+  if (!options.aov_output.empty() || !options.trace.empty())
+    throw Error("--zoom makes many pictures; it does not go with --aov or --trace");
+  const Scene scene = openScene(common, options.scene);
+  const View& view = chosenView(scene, options.view);
+  Device device = openDevice(common);
+  const double exposure = options.exposure.value_or(scene.post.exposure);
+  writePng(zoomStrip(device, scene, view, shading, options.zoom, exposure, common.threads),
+           options.output);
+  return kExitDone;
+}
+
 int runRender(const CommandLine& line, const RenderOptions& options) {
   const CommonOptions& common = line.common;
   const std::string extension = requireImageExtension(options.output);
@@ -96,6 +115,7 @@ int runRender(const CommandLine& line, const RenderOptions& options) {
                          .lanes = common.lanes,
                          .method = parseMethod(options.method),
                          .glints = !options.no_glints};
+  if (options.zoom != 0) return runZoom(common, options, shading);
   const Scene scene = openScene(common, options.scene);
   const View& view = chosenView(scene, options.view);
   Device device = openDevice(common);
@@ -145,6 +165,10 @@ void addRenderCommand(Command app, CommandLine& line) {
   command.option("--trace", options->trace, "Chrome/Perfetto trace of host and device")
       .typeName("FILE");
   command.option("--method", options->method, methodHelp(choiceName(kRenderMethod)));
+  command
+      .option("--zoom", options->zoom,
+              "Strip of pictures over so many octaves, through ever narrower fields of view")
+      .typeName("OCTAVES");
   command.flag("--no-glints", options->no_glints, "Smooth lobes in place of glints");
   const CommandOption star = command.flag("--star,!--no-star", options->star,
                                           "Star-shaped glare (default: the scene's for PNG)");
@@ -153,6 +177,7 @@ void addRenderCommand(Command app, CommandLine& line) {
       "Examples:\n"
       "  glintmark render snow -o snow.png --view grazing\n"
       "  glintmark render sand -o sand.exr --star --size 3840x2160\n"
+      "  glintmark render screen_plane -o zoom.png --zoom 20 --size 128x128\n"
       "  glintmark render car -o car.png --aov planes.exr --set material.paint.log_density=7\n"
       "  glintmark render snow -o snow.png --trace trace.json    (open it at ui.perfetto.dev)");
   command.callback([options, star, &line] {

@@ -31,8 +31,9 @@ struct FrameSamples {
 };
 
 // Adds frames with glints and without, in turn.
-void measureShading(FrameRenderer& glint, FrameRenderer& smooth, int reps, FrameSamples& samples) {
-  for (int rep = 0; rep < reps; ++rep) {
+void measureShading(FrameRenderer& glint, FrameRenderer& smooth, const Repetitions& reps,
+                    FrameSamples& samples) {
+  while (reps.wantsMore({&samples.with_ns, &samples.without_ns})) {
     stopIfInterrupted();
     const FrameTimes with = glint.shade();
     const FrameTimes without = smooth.shade();
@@ -47,9 +48,9 @@ struct PrepareSamples {
   Samples raster_ns, upload_ns, readback_ns;
 };
 
-PrepareSamples measurePrepare(FrameRenderer& renderer, int reps) {
+PrepareSamples measurePrepare(FrameRenderer& renderer, const Repetitions& reps) {
   PrepareSamples samples;
-  for (int rep = 0; rep < reps; ++rep) {
+  while (reps.wantsMore({&samples.raster_ns})) {
     stopIfInterrupted();
     FrameTimes times = renderer.prepare();
     samples.raster_ns.push_back(times.raster_ns);
@@ -142,7 +143,7 @@ Samples CaseMeasurement::measureSpeedup(FrameRenderer& glint, const Image& refer
   one_lane.lanes = 1;
   const auto narrow = frame(one_lane);
   checkSame(narrow->readRadiance(), reference, "W = 1");
-  return shadeInTurn(*narrow, glint, std::min(run_.options().reps, kZk16OneLaneReps)).ratios();
+  return shadeInTurn(*narrow, glint, run_.reps().atMost(kZk16OneLaneReps)).ratios();
 }
 
 void CaseMeasurement::addStaticCounts(const FrameRenderer& glint) {
@@ -168,6 +169,9 @@ void CaseMeasurement::addShading(const FrameSamples& frames, double peak_gflops)
   add("frame_with_ms", scaled(frames.with_ns, kMsPerNs), "enqueue to finish");
   add("frame_without_ms", scaled(frames.without_ns, kMsPerNs), "enqueue to finish");
   add("ns_per_cell", scaled(frames.difference_ns, cells > 0 ? 1 / cells : 0));
+  const double paid = counts.paid_mean * static_cast<double>(counts.glint_px);
+  add("ns_per_paid_cell", scaled(frames.difference_ns, paid > 0 ? 1 / paid : 0),
+      "of cells that lanes work through side by side");
   if (const std::optional<double> paper_ms = paperMs()) {
     add("normalised_cost",
         scaled(frames.difference_ns,
@@ -182,6 +186,7 @@ void CaseMeasurement::addFacts(const FrameRenderer& glint, const PrepareSamples&
   const double pixels = static_cast<double>(shading_.width_px) * shading_.height_px;
   add("cells_min", {static_cast<double>(counts.min)});
   add("cells_mean", {counts.mean});
+  add("cells_paid_mean", {counts.paid_mean}, "idle lanes and steps rounded up included");
   add("cells_max", {static_cast<double>(counts.max)});
   add("guard_hits", {static_cast<double>(counts.guard_hits)});
   add("raster_ms", scaled(prepare.raster_ns, kMsPerNs));
@@ -218,11 +223,11 @@ Zk16Case CaseMeasurement::run() {
 
   // The peak in the middle of the frames, since the machine's speed may drift.
   FrameSamples frames;
-  const int reps = run_.options().reps;
-  measureShading(glint, smooth, (reps + 1) / 2, frames);
+  const Repetitions reps = run_.reps();
+  measureShading(glint, smooth, reps.scaled(0.5).atMost((run_.options().reps + 1) / 2), frames);
   const DevicePeaks peaks = measurePeaks(run_.device(), run_.cache(), shading_.lanes);
-  measureShading(glint, smooth, reps / 2, frames);
-  const PrepareSamples prepare = measurePrepare(glint, reps);
+  measureShading(glint, smooth, reps, frames);
+  const PrepareSamples prepare = measurePrepare(glint, run_.reps().atMost(run_.options().reps));
 
   addShading(frames, peaks.gflops);
   if (shading_.lanes > 1) {
@@ -248,12 +253,12 @@ Zk16Case CaseMeasurement::run() {
 
 const std::vector<std::string>& zk16Metrics() {
   static const std::vector<std::string> metrics = {
-      "shading_ms",  "shading_event_ms", "frame_with_ms",       "frame_without_ms",
-      "ns_per_cell", "speedup_vs_w1",    "cells_min",           "cells_mean",
-      "cells_max",   "guard_hits",       "raster_ms",           "upload_ms",
-      "readback_ms", "build_ms",         "first_enqueue_ms",    "triangles",
-      "covered_px",  "glint_share",      "buffer_bytes_per_px", "peak_gflops",
-      "peak_gbs"};
+      "shading_ms",          "shading_event_ms", "frame_with_ms", "frame_without_ms",
+      "ns_per_cell",         "ns_per_paid_cell", "speedup_vs_w1", "cells_min",
+      "cells_mean",          "cells_paid_mean",  "cells_max",     "guard_hits",
+      "raster_ms",           "upload_ms",        "readback_ms",   "build_ms",
+      "first_enqueue_ms",    "triangles",        "covered_px",    "glint_share",
+      "buffer_bytes_per_px", "peak_gflops",      "peak_gbs"};
   return metrics;
 }
 
