@@ -21,6 +21,7 @@ void addBenchCommand(Command app, CommandLine& line);
 void addSimulateCommand(Command app, CommandLine& line);
 void addFitCommand(Command app, CommandLine& line);
 void addCompareCommand(Command app, CommandLine& line);
+void addDiffCommand(Command app, CommandLine& line);
 void addReportCommand(Command app, CommandLine& line);
 void addVerifyCommand(Command app, CommandLine& line);
 

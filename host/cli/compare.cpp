@@ -1,6 +1,7 @@
-// glintmark compare: did a newer run get better or worse?
+// glintmark compare: did newer runs get better or worse?
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 
 #include "host/cli/command_line.h"
@@ -8,15 +9,25 @@
 #include "host/core/error.h"
 #include "host/experiment/all_tables.h"
 #include "host/report/record/comparison.h"
+#include "host/report/record/run_table.h"
 
 namespace glintmark {
 namespace {
 
+constexpr int kMostRuns = 1000;
+
 struct CompareOptions {
-  std::string old_file, new_file, json;
+  std::vector<std::string> files;
+  std::string json;
   double threshold_percent = 5;
   bool all = false, across_devices = false;
 };
+
+// A folder of results, or its file.
+Results resultsAt(const std::string& path) {
+  const std::filesystem::path file = path;
+  return readResults(std::filesystem::is_directory(file) ? file / "results.json" : file);
+}
 
 void requireSameDevice(const RunInfo& before, const RunInfo& after) {
   const auto describe = [](const RunInfo& run) {
@@ -29,31 +40,49 @@ void requireSameDevice(const RunInfo& before, const RunInfo& after) {
         a, b));
 }
 
-int runCompare(const CompareOptions& options) {
-  if (!(options.threshold_percent >= 0 && options.threshold_percent <= 1000))
-    throw Error(fmt::format("--threshold {} is not a percentage from 0 to 1000",
-                            options.threshold_percent));
-  if (!options.json.empty()) requireWritableFile(options.json);
-  const Results before = readResults(options.old_file), after = readResults(options.new_file);
-  if (!options.across_devices) requireSameDevice(before.run, after.run);
+int compareTwo(const CompareOptions& options, const Results& before, const Results& after) {
   const double threshold = options.threshold_percent / 100;
   const ComparisonReport report = compareResults(before, after, allTableSpecs(), threshold);
-  if (report.comparisons.empty())
-    throw Error(
-        fmt::format("{} and {} have no figure in common", options.old_file, options.new_file));
   if (!options.json.empty()) writeFile(options.json, comparisonJson(report, threshold));
   fmt::print("{} ({}) against {} ({})\n\n{}", before.run.git, before.run.date, after.run.git,
              after.run.date, comparisonText(report, options.all));
   return report.hasRegression() ? kExitCheckFailed : kExitDone;
 }
 
+int compareMany(const CompareOptions& options, const std::vector<Results>& runs) {
+  const double threshold = options.threshold_percent / 100;
+  const RunTable table = tabulateRuns(runs, allTableSpecs(), threshold);
+  if (!options.json.empty()) writeFile(options.json, runTableJson(table, options.files, threshold));
+  fmt::print("{}", runTableText(table, runs, options.files, options.all));
+  return table.hasRegression() ? kExitCheckFailed : kExitDone;
+}
+
+int runCompare(const CompareOptions& options) {
+  if (!(options.threshold_percent >= 0 && options.threshold_percent <= 1000))
+    throw Error(fmt::format("--threshold {} is not a percentage from 0 to 1000",
+                            options.threshold_percent));
+  if (!options.json.empty()) requireWritableFile(options.json);
+  std::vector<Results> runs;
+  for (const std::string& file : options.files) runs.push_back(resultsAt(file));
+  for (std::size_t i = 1; i < runs.size(); ++i) {
+    if (!options.across_devices) requireSameDevice(runs[0].run, runs[i].run);
+    if (compareResults(runs[0], runs[i], {}, 0).comparisons.empty())
+      throw Error(
+          fmt::format("{} and {} have no figure in common", options.files[0], options.files[i]));
+  }
+  return runs.size() == 2 ? compareTwo(options, runs[0], runs[1]) : compareMany(options, runs);
+}
+
 }  // namespace
 
 void addCompareCommand(Command app, CommandLine& line) {
   auto options = std::make_shared<CompareOptions>();
-  Command command = app.subcommand("compare", "What changed between two results files");
-  command.option("old", options->old_file, "results.json of the run before").required();
-  command.option("new", options->new_file, "results.json of the run after").required();
+  Command command = app.subcommand("compare", "What changed between results, two or more");
+  command
+      .option("results", options->files, "Folders of results or their results.json, oldest first")
+      .required()
+      .typeName("RESULTS")
+      .values(2, kMostRuns);
   command
       .option("--threshold", options->threshold_percent,
               "Smallest difference that counts [%] (default: 5)")
@@ -65,8 +94,11 @@ void addCompareCommand(Command app, CommandLine& line) {
       .typeName("FILE");
   command.footer(
       "A difference counts if it is beyond the threshold and beyond noise (Welch's t on the\n"
-      "medians, 1 %). Exit code 1: something got worse, or is no longer valid.\n"
-      "Example:\n  glintmark compare before/results.json after/results.json --threshold 3");
+      "medians, 1 %). Exit code 1: something got worse, or is no longer valid. Three runs or more\n"
+      "are one table of ratios to the first.\n"
+      "Examples:\n"
+      "  glintmark compare before/results.json after/results.json --threshold 3\n"
+      "  glintmark compare --across-devices results/*/2026-11-26 --json ratios.json");
   command.callback([options, &line] { line.action = [options] { return runCompare(*options); }; });
 }
 

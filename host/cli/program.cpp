@@ -63,6 +63,7 @@ int runProgram(int argc, const char* const* argv) {
   addSimulateCommand(app, line);
   addFitCommand(app, line);
   addCompareCommand(app, line);
+  addDiffCommand(app, line);
   addReportCommand(app, line);
   addVerifyCommand(app, line);
   app.shareOptions();

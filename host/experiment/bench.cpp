@@ -10,6 +10,7 @@
 #include "host/core/trace.h"
 #include "host/experiment/all_tables.h"
 #include "host/experiment/interrupt.h"
+#include "host/report/record/score.h"
 #include "host/report/record/trace_file.h"
 
 namespace glintmark {
@@ -81,7 +82,10 @@ int runBench(const Session& session, const std::vector<std::string>& names,
   }
   BenchRun run(session, options);
   try {
-    for (const BenchTable& table : tables) table.measure(run);
+    for (std::size_t i = 0; i < tables.size(); ++i) {
+      run.shareTime(tables.size() - i);
+      tables[i].measure(run);
+    }
   } catch (const Interrupted&) {
     if (!options.trace.empty()) writeTrace(options.trace, run.info());
     throw;
@@ -90,7 +94,10 @@ int runBench(const Session& session, const std::vector<std::string>& names,
   texts.reserve(tables.size());
   for (const BenchTable& table : tables) texts.push_back(table.text(run));
   if (!options.trace.empty()) writeTrace(options.trace, run.info());
-  return run.finish(fmt::format("{}", fmt::join(texts, "\n")));
+  std::string scores;
+  for (const BenchTable& table : tables) scores += scoreLine(table.spec, run.records());
+  return run.finish(
+      fmt::format("{}{}{}", fmt::join(texts, "\n"), scores.empty() ? "" : "\n", scores));
 }
 
 }  // namespace glintmark

@@ -24,6 +24,9 @@ std::map<std::string, std::string> measurementKey(const CommonOptions& common,
                                             {"reps", std::to_string(options.reps)},
                                             {"width", std::to_string(lanes)}};
   if (common.timer != "auto") key["timer"] = common.timer;
+  if (options.noise > 0) key["noise"] = fmt::format("{}", options.noise);
+  if (options.max_time_s > 0) key["max_time_s"] = fmt::format("{}", options.max_time_s);
+  if (options.warmup != 1) key["warmup"] = std::to_string(options.warmup);
   key.insert(options.more_key.begin(), options.more_key.end());
   if (!common.overrides.empty()) key["set"] = fmt::format("{}", fmt::join(common.overrides, " "));
   if (!common.mesh_file.empty()) key["mesh"] = common.mesh_file;
@@ -42,10 +45,34 @@ std::string onLines(const std::string& reasons) {
   return text;
 }
 
+constexpr double kMostTime_s = 30 * 86400.0;
+
+// When so many seconds from now are over; 0: never.
+Repetitions::Clock::time_point inSeconds(double seconds) {
+  using Clock = Repetitions::Clock;
+  if (!(seconds > 0)) return Clock::time_point::max();
+  return Clock::now() +
+         std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+}
+
+// The end of one of `shares` equal parts of the time until then.
+Repetitions::Clock::time_point shareOf(Repetitions::Clock::time_point until, std::size_t shares) {
+  if (until == Repetitions::Clock::time_point::max()) return until;
+  const auto now = Repetitions::Clock::now();
+  return now + (until - now) / static_cast<std::ptrdiff_t>(std::max<std::size_t>(shares, 1));
+}
+
 // The folder, once it is known that the results can be written.
 std::filesystem::path checkedFolder(const BenchOptions& options) {
   if (options.reps < 1 || options.reps > 10000)
     throw Error(fmt::format("--reps {} is not from 1 to 10000", options.reps));
+  if (options.warmup < 1 || options.warmup > 10000)
+    throw Error(fmt::format("--warmup {} is not from 1 to 10000", options.warmup));
+  if (!(options.noise >= 0 && options.noise <= 1))
+    throw Error(fmt::format("--noise {} is not a percentage from 0 to 100", 100 * options.noise));
+  if (!(options.max_time_s >= 0 && options.max_time_s <= kMostTime_s))
+    throw Error(fmt::format("--max-time {} is not a number of seconds from 0 to {}",
+                            options.max_time_s, kMostTime_s));
   requireWritableFolder(options.folder);
   for (const std::string& file : {options.json, options.csv}) {
     if (!file.empty()) requireWritableFile(file);
@@ -83,7 +110,10 @@ BenchRun::BenchRun(const Session& session, const BenchOptions& options)
       cache_(device_),
       info_(describeRunWithPeaks(session, options, device_, cache_)),
       key_(measurementKey(session.common, options, info_.width)),
-      log_(openLog(options, info_)) {
+      log_(openLog(options, info_)),
+      until_(inSeconds(options.max_time_s)),
+      table_until_(until_),
+      case_until_(until_) {
   removeAbandonedFiles(folder_);
 }
 
@@ -103,7 +133,15 @@ void BenchRun::measureCases(const std::string& table, const std::vector<std::str
   for (std::size_t i = 0; i < cases.size(); ++i) {
     progress.show(static_cast<int>(i), static_cast<int>(cases.size()), table + " " + cases[i]);
     std::vector<Record> measured = loggedCase(table, cases[i], metrics);
+    if (measured.empty() && Repetitions::Clock::now() >= until_) {
+      if (records_.empty())
+        throw Error(fmt::format("--max-time {} s is too short for one repetition of {} {}",
+                                options_.max_time_s, table, cases[i]));
+      ++left_out_;
+      continue;
+    }
     if (measured.empty()) {
+      case_until_ = shareOf(table_until_, cases.size() - i);
       const auto kept = [&] {
         return Interrupted(fmt::format(
             "interrupted; {} of {} cases of table {} are kept in {}, --resume carries on", i,
@@ -128,6 +166,14 @@ void BenchRun::measureCases(const std::string& table, const std::vector<std::str
     }
     records_.insert(records_.end(), measured.begin(), measured.end());
   }
+}
+
+Repetitions BenchRun::reps() const {
+  return {options_.reps, options_.noise, case_until_};
+}
+
+void BenchRun::shareTime(std::size_t tables) {
+  table_until_ = shareOf(until_, tables);
 }
 
 void BenchRun::addDerived(const std::vector<Record>& derived) {
@@ -181,6 +227,9 @@ int BenchRun::finish(const std::string& tables) {
   std::string text = tables;
   if (std::ranges::count(records_, "wall", &Record::timer) > 0)
     text += "\nKernels are timed by the wall clock.\n";
+  if (left_out_ > 0)
+    text += fmt::format("\n{} cases are left out: the {} s of --max-time were over.\n", left_out_,
+                        options_.max_time_s);
   if (!info_.busy.empty()) text += "\nThe machine was busy:\n" + onLines(info_.busy);
   const std::string json = toJson({info_, records_}), csv = toCsv(records_);
   try {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "host/experiment/repetitions.h"
 #include "host/experiment/session.h"
 #include "host/frame/shading_options.h"
 #include "host/ocl/compute.h"
@@ -22,7 +23,11 @@ namespace glintmark {
 struct BenchOptions {
   std::vector<std::string> scenes, views;  // empty: all
   std::string size = "1920x1080", method = defaultMethod();
-  int reps = 9;
+  int reps = 9;  // of every measurement, at least
+  double noise =
+      0;  // standard error of a median that ends it, as a fraction of the median; 0: none
+  double max_time_s = 0;  // for all that is measured; 0: as long as it takes
+  int warmup = 1;         // frames before those that are timed
   std::string folder = "results/latest";
   std::string json, csv;  // further copies, empty for none
   std::string trace;      // file for the run's intervals, empty for none
@@ -56,10 +61,17 @@ class BenchRun {
   /// configuration starts from them.
   const std::map<std::string, std::string>& key() const { return key_; }
 
+  /// How often the case that is being measured is timed: as the options say, and not beyond its
+  /// share of the time.
+  Repetitions reps() const;
+
+  /// The table that is measured next is one of so many that share the time that is left.
+  void shareTime(std::size_t tables);
+
   /// Measures the cases that the log does not hold whole (a record of each of `metrics`, measured
   /// with the same key), shows progress, and logs each as soon as it is there. Records of both
   /// kinds are kept in the order of `cases`. After Ctrl-C throws Interrupted, which says what is
-  /// kept.
+  /// kept. Cases for which no time is left are left out; throws Error if that is the first.
   void measureCases(
       const std::string& table, const std::vector<std::string>& cases,
       const std::vector<std::string>& metrics,
@@ -103,6 +115,8 @@ class BenchRun {
   std::map<std::string, std::string> key_;
   RecordLog log_;
   std::vector<Record> records_;
+  Repetitions::Clock::time_point until_, table_until_, case_until_;  // when time is over
+  std::size_t left_out_ = 0;                                         // cases, for want of time
 };
 
 /// One table: what it says of itself, and how `bench` measures and prints it.

@@ -26,7 +26,7 @@ std::unique_ptr<FrameRenderer> preparedFrame(BenchRun& run, const Scene& scene, 
   auto renderer = std::make_unique<FrameRenderer>(run.device(), scene, view, options, run.threads(),
                                                   std::move(textures));
   renderer->prepare();
-  renderer->shade();
+  for (int frame = 0; frame < run.options().warmup; ++frame) renderer->shade();
   return renderer;
 }
 
@@ -41,9 +41,9 @@ double shadeMs(FrameRenderer& renderer) {
   return renderer.shade().shading_event_ns * kMsPerNs;
 }
 
-Samples shadeTimesMs(FrameRenderer& renderer, int reps) {
+Samples shadeTimesMs(FrameRenderer& renderer, const Repetitions& reps) {
   Samples times_ms;
-  for (int rep = 0; rep < reps; ++rep) times_ms.push_back(shadeMs(renderer));
+  while (reps.wantsMore({&times_ms})) times_ms.push_back(shadeMs(renderer));
   return times_ms;
 }
 
@@ -55,9 +55,9 @@ Samples TurnTimes::differences() const {
   return combined(*this, std::minus<>());
 }
 
-TurnTimes shadeInTurn(FrameRenderer& first, FrameRenderer& second, int reps) {
+TurnTimes shadeInTurn(FrameRenderer& first, FrameRenderer& second, const Repetitions& reps) {
   TurnTimes times;
-  for (int rep = 0; rep < reps; ++rep) {
+  while (reps.wantsMore({&times.first_ms, &times.second_ms})) {
     times.first_ms.push_back(shadeMs(first));
     times.second_ms.push_back(shadeMs(second));
   }
@@ -65,9 +65,9 @@ TurnTimes shadeInTurn(FrameRenderer& first, FrameRenderer& second, int reps) {
 }
 
 std::vector<Samples> shadeInTurn(std::span<const std::unique_ptr<FrameRenderer>> renderers,
-                                 int reps) {
+                                 const Repetitions& reps) {
   std::vector<Samples> times_ms(renderers.size());
-  for (int rep = 0; rep < reps; ++rep)
+  while (reps.wantsMore(times_ms))
     for (std::size_t i = 0; i < renderers.size(); ++i)
       times_ms[i].push_back(shadeMs(*renderers[i]));
   return times_ms;

@@ -12,11 +12,8 @@ namespace glintmark {
 
 inline constexpr double kMsPerNs = 1e-6;
 
-/// Samples of one quantity over the repetitions.
-using Samples = std::vector<double>;
-
-/// A renderer of the run's device, prepared and shaded once, so that its programs are there. Scene
-/// and view must live as long as it; `textures` may be shared.
+/// A renderer of the run's device, prepared and shaded --warmup times, so that its programs are
+/// there. Scene and view must live as long as it; `textures` may be shared.
 std::unique_ptr<FrameRenderer> preparedFrame(BenchRun& run, const Scene& scene, const View& view,
                                              const ShadingOptions& options,
                                              std::shared_ptr<NormalTextures> textures = nullptr);
@@ -26,8 +23,8 @@ std::string kernelOptions(const FrameRenderer& renderer);
 
 /// Shades once; kernel event time [ms]. Throws Interrupted after Ctrl-C.
 double shadeMs(FrameRenderer& renderer);
-/// The same `reps` times.
-Samples shadeTimesMs(FrameRenderer& renderer, int reps);
+/// The same again and again.
+Samples shadeTimesMs(FrameRenderer& renderer, const Repetitions& reps);
 
 /// Times of frames that were shaded in turn, by repetition [ms].
 struct TurnTimes {
@@ -35,12 +32,12 @@ struct TurnTimes {
   Samples ratios() const;       // first / second
   Samples differences() const;  // first - second [ms]
 };
-TurnTimes shadeInTurn(FrameRenderer& first, FrameRenderer& second, int reps);
+TurnTimes shadeInTurn(FrameRenderer& first, FrameRenderer& second, const Repetitions& reps);
 /// Enough against a frame of one lane, which takes some ten times as long.
 inline constexpr int kOneLaneReps = 5;
 /// Of any number of frames, by frame.
 std::vector<Samples> shadeInTurn(std::span<const std::unique_ptr<FrameRenderer>> renderers,
-                                 int reps);
+                                 const Repetitions& reps);
 
 /// How often two frames are to be shaded in turn: at least `reps` times, and more where they are
 /// short, so that no passing disturbance lasts through half of them. Shades each once.

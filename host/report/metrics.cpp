@@ -57,10 +57,7 @@ double relativeBias(const Image& image, const Image& reference) {
 double relMse(const Image& image, const Image& reference) {
   double sum = 0;
   const int colours = visitPixels(image, reference, [&](auto a, auto r) {
-    for (std::size_t c = 0; c < a.size(); ++c) {
-      const double difference = static_cast<double>(a[c]) - r[c];
-      sum += difference * difference / (static_cast<double>(r[c]) * r[c] + kRelMseEpsilon);
-    }
+    for (std::size_t c = 0; c < a.size(); ++c) sum += relativeSquareError(a[c], r[c]);
   });
   return sum / (pixelCount(image) * colours);
 }

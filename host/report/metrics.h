@@ -16,6 +16,10 @@ double relativeBias(const Image& image, const Image& reference);
 /// Relative mean squared error: mean over all values of (a - r)^2 / (r^2 + kRelMseEpsilon).
 double relMse(const Image& image, const Image& reference);
 inline constexpr double kRelMseEpsilon = 1e-2;  // keeps black pixels from dominating
+/// One value's share of it.
+inline double relativeSquareError(double a, double r) {
+  return (a - r) * (a - r) / (r * r + kRelMseEpsilon);
+}
 
 /// Normalised Euclidean colour error per pixel of [TAN05] Figs. 4, 7 and 8, which give no formula.
 /// We take display colours clamped to [0, 1], their Euclidean distance over that of black and white

@@ -8,11 +8,13 @@
 #include "host/core/atomic_file.h"
 #include "host/experiment/all_tables.h"
 #include "host/report/page/html_report.h"
+#include "host/report/page/runs_report.h"
 #include "host/report/picture/heatmap.h"
 #include "host/report/picture/image_io.h"
 #include "host/report/picture/picture_strip.h"
 #include "tests/browser/chromium.h"
 #include "tests/experiment/sample_run.h"
+#include "tests/report/sample_records.h"
 
 namespace glintmark {
 namespace {
@@ -103,6 +105,29 @@ TEST_F(Page, DrawsEveryChartWithoutAnyConsoleMessage) {
   EXPECT_EQ(rootData(result.out, "drawn"), "4");
   EXPECT_EQ(rootData(result.out, "sliders"), "1");
   EXPECT_EQ(rootData(result.out, "overflow"), "0");
+}
+
+TEST_F(Page, OfManyRunsSortsByAClickOnAColumn) {
+  const TableSpec table = {
+      .name = "zk16", .title = "Glints", .metrics = {{"shading_ms", "ms"}}, .score = "shading_ms"};
+  std::vector<NamedResults> runs;
+  for (const double ms : {9.0, 100.0, 20.0}) {
+    Record record = sampleRecord("snow/steep", "shading_ms", ms);
+    runs.push_back({"results.json", {sampleRun(), {record}}});
+    runs.back().results.run.device = "device " + std::to_string(runs.size());
+  }
+  std::string html = runsReport(runs, std::span(&table, 1));
+  html.insert(html.rfind("</body>"),
+              "<script>for (const n of [1, 2]) "
+              "document.querySelectorAll('.sortable thead button')[5].click();</script>");
+  writeFile(page_, html);
+  const BrowserResult result = runChromium(page_, {"--dump-dom"});
+  EXPECT_EQ(result.console, "");
+  EXPECT_EQ(rootData(result.out, "drawn"), "1");
+  const std::string rows = result.out.substr(result.out.find("<tbody>"));
+  EXPECT_LT(rows.find("device 2"), rows.find("device 3"))
+      << rows.substr(0, 2000);  // numbers, not words
+  EXPECT_LT(rows.find("device 3"), rows.find("device 1"));
 }
 
 // The checks above can fail: a page whose script throws is noticed.

@@ -19,8 +19,10 @@ using std::chrono::steady_clock;
 
 std::vector<std::string> benchArguments(const TempFolder& folder,
                                         const std::vector<std::string>& more) {
-  std::vector<std::string> arguments = {"bench", "zk16",       "--quiet", "--scene", "screen_plane",
-                                        "-o",    folder / "r", "--size",  "320x180"};
+  std::vector<std::string> arguments = {"bench",        "zk16", "--quiet",   "--scene",
+                                        "screen_plane", "-o",   folder / "r"};
+  if (std::ranges::find(more, "--size") == more.end())
+    arguments.insert(arguments.end(), {"--size", "320x180"});
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
 }
@@ -38,6 +40,29 @@ bool waitForLines(const std::filesystem::path& file, std::size_t lines) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   return false;
+}
+
+TEST(Bench, StopsWhenKnownOrWhenTimeIsOver) {
+  const TempFolder folder;
+  const ProcessResult result =
+      runGlintmark(benchArguments(folder, {"--size", "64x36", "--view", "steep", "--noise", "99",
+                                           "--reps", "1", "--warmup", "2"}));
+  ASSERT_EQ(result.exit_code, 0) << result.err << result.out;
+  EXPECT_NE(result.out.find("\nscore: zk16 "), std::string::npos) << result.out;
+  for (const Record& record : readResults(folder / "r/results.json").records) {
+    EXPECT_EQ(record.config.at("noise"), "0.99");
+    EXPECT_EQ(record.config.at("warmup"), "2");
+    if (record.metric == "shading_event_ms") {
+      EXPECT_EQ(record.value.n, 3u);
+    }
+  }
+  const ProcessResult late = runGlintmark(benchArguments(folder, {"--max-time", "1e-6"}));
+  EXPECT_EQ(late.exit_code, 2);
+  EXPECT_NE(late.err.find("too short for one repetition of zk16 screen_plane/steep"),
+            std::string::npos)
+      << late.err;
+  for (const char* wrong : {"--noise", "--max-time", "--warmup"})
+    EXPECT_EQ(runGlintmark(benchArguments(folder, {wrong, "-1"})).exit_code, 2) << wrong;
 }
 
 TEST(Bench, WritesEveryFile) {

@@ -71,6 +71,22 @@ TEST_F(Compare, LosingValidityIsARegression) {
   EXPECT_NE(result.out.find("was valid and is not any more"), std::string::npos) << result.out;
 }
 
+TEST_F(Compare, ManyRunsAreOneTable) {
+  const std::string a = write("a.json", shadingMs(10)), b = write("b.json", shadingMs(20)),
+                    json = folder_ / "many.json";
+  write("results.json", shadingMs(5));
+  const ProcessResult result = runGlintmark({"compare", a, b, folder_ / "", "--json", json});
+  EXPECT_EQ(result.exit_code, 1) << result.err;
+  EXPECT_NE(result.out.find("2.000!  0.500\n"), std::string::npos) << result.out;
+  EXPECT_NE(readFile(json).find("glintmark.comparisons/1"), std::string::npos);
+  Results other = shadingMs(10);
+  other.run.driver = "another driver";
+  const ProcessResult refused = runGlintmark({"compare", a, b, write("c.json", other)});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("another driver"), std::string::npos) << refused.err;
+  EXPECT_EQ(runGlintmark({"compare", a}).exit_code, 2);
+}
+
 TEST_F(Compare, BadInput) {
   const std::string good = write("good.json", shadingMs(10));
   EXPECT_EQ(runGlintmark({"compare", good, folder_ / "missing.json"}).exit_code, 2);

@@ -31,6 +31,26 @@ TEST_F(Report, OnePageWithThePicturesOfTheFolder) {
   EXPECT_NE(html.find("cells_snow_steep.png"), std::string::npos);
 }
 
+TEST_F(Report, ManyRunsAreOnePage) {
+  const std::string page = folder_ / "page.html";
+  for (const char* name : {"a", "b"}) {
+    std::filesystem::create_directories(folder_ / name);
+    Results results{sampleRun(), {sampleRecord("snow/steep", "shading_event_ms", 42)}};
+    results.run.device = std::string("device ") + name;
+    writeFile(folder_ / name / "results.json", toJson(results));
+  }
+  for (const std::vector<std::string>& folders :
+       {std::vector<std::string>{folder_ / ""}, {folder_ / "a", folder_ / "b"}}) {
+    std::vector<std::string> arguments = {"report", "-o", page};
+    arguments.insert(arguments.end(), folders.begin(), folders.end());
+    const ProcessResult result = runGlintmark(arguments);
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.out, "2 runs written to " + page + "\n");
+    const std::string html = readFile(page);
+    EXPECT_NE(html.find("<a href=\"./b/results.json\">device b</a>"), std::string::npos);
+  }
+}
+
 TEST_F(Report, BadInputLeavesNoPage) {
   const std::string page = folder_ / "page.html";
   EXPECT_EQ(runGlintmark({"report", folder_ / "missing", "-o", page}).exit_code, 2);

@@ -42,7 +42,11 @@ TEST(Usage, HelpHasExamples) {
 TEST(Usage, Version) {
   const ProcessResult result = runGlintmark({"--version"});
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_TRUE(result.out.starts_with("glintmark 0.")) << result.out;
+  std::string version = readFile(GLINTMARK_SOURCE_DIR "/VERSION");
+  version.pop_back();  // the end of its line
+  EXPECT_TRUE(result.out.starts_with("glintmark " + version + " (")) << result.out;
+  const std::string changes = readFile(GLINTMARK_SOURCE_DIR "/CHANGELOG.md");
+  EXPECT_TRUE(changes.starts_with("# Changelog\n\n## " + version)) << changes.substr(0, 40);
 }
 
 TEST(Usage, UnknownNamesListTheKnownOnes) {

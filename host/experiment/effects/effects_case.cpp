@@ -83,9 +83,9 @@ struct EffectsMeasurer::Frames {
     renderers.push_back(&renderer);
     return renderers.size() - 1;
   }
-  void measure(int reps) {
+  void measure(const Repetitions& reps) {
     samples.assign(renderers.size(), {});
-    for (int rep = 0; rep < reps; ++rep)
+    while (reps.wantsMore({&samples.front().frame_ns}))
       for (std::size_t i = 0; i < renderers.size(); ++i) {
         stopIfInterrupted();
         samples[i].add(renderers[i]->shade());
@@ -195,7 +195,7 @@ EffectsMeasurer::Frames EffectsMeasurer::measureFrames(const Compared& compared,
       frames.alone.push_back({with, frames.add(*keptFrame(needs, set).renderer)});
     }
   }
-  frames.measure(run_.options().reps);
+  frames.measure(run_.reps());
   return frames;
 }
 

@@ -89,6 +89,7 @@ const TableSpec& effectsSpec() {
            {"programs", "1", "", "different programs of the frame"}},
       .cost_ratios = {"mixed_over_sum", "mixed_over_sum_worst"},
       .headline = Headline{"uber_over_specialised", "times as long if every effect is compiled in"},
+      .score = "shading_ms",
       .pictures = {{.kind = PictureGroup::Kind::kHidden,
                     .pictures = {{"effects_matrix.png", "Time ratios of pairs of effects"}}}},
       .section = effectsHtml,

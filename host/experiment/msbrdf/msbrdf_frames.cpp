@@ -55,8 +55,7 @@ std::pair<Samples, bool> measureChange(BenchRun& run, const Scene& scene,
                                        const std::function<void(Material&)>& change) {
   const ShadingOptions options = run.shading();
   ChangedFrame with(run, scene, change, options), without(run, scene, setLambert, options);
-  Samples samples =
-      shadeInTurn(with.renderer(), without.renderer(), run.options().reps).differences();
+  Samples samples = shadeInTurn(with.renderer(), without.renderer(), run.reps()).differences();
   return {samples,
           isSane(with.renderer().readRadiance()) && isSane(without.renderer().readRadiance())};
 }
@@ -97,15 +96,14 @@ void addSpeedup(BenchRun& run, const Scene& scene, MsbrdfCase& result) {
   ShadingOptions one_lane = run.shading();
   one_lane.lanes = 1;
   ChangedFrame narrow(run, scene, refit, one_lane), wide(run, scene, refit, run.shading());
-  const Samples samples =
-      shadeInTurn(narrow.renderer(), wide.renderer(), run.options().reps).ratios();
+  const Samples samples = shadeInTurn(narrow.renderer(), wide.renderer(), run.reps()).ratios();
   const bool same =
       narrow.renderer().readRadiance().pixels == wide.renderer().readRadiance().pixels;
   result.add("speedup_vs_w1", samples, same,
              same ? "kernel events of the frame with the refit, in turn"
                   : "not valid: one lane gives another picture");
   ChangedFrame lambert(run, scene, setLambert, run.shading());
-  const Samples off_ms = shadeTimesMs(lambert.renderer(), run.options().reps);
+  const Samples off_ms = shadeTimesMs(lambert.renderer(), run.reps());
   result.add("lambert_ms", off_ms, true, "kernel events of the frame with the effect off");
 }
 
@@ -116,7 +114,8 @@ Samples measureSimulation(BenchRun& run) {
   simulator.run(settings);  // builds the kernels
   settings.rays = kMsbrdfSurfaceRays;
   Samples samples;
-  for (int rep = 0; rep < std::min(run.options().reps, kMostSimulations); ++rep) {
+  const Repetitions reps = run.reps().atMost(kMostSimulations);
+  while (reps.wantsMore({&samples})) {
     stopIfInterrupted();
     const Stopwatch watch;
     simulator.run(settings);

@@ -160,6 +160,7 @@ const TableSpec& msbrdfSpec() {
       .citation = "[PAT18]",
       .metrics = metrics(),
       .headline = Headline{"runtime_ms", "ms more for multiple scattering, full screen"},
+      .score = "simulate_500m_ms",
       .curves = {{"order_1", "order_2", "order_3", "order_4", "order_5", "order_6"},
                  {"lobe_error", "lobe_error_published", "lobe_error_eon", "lobe_error_lambert"},
                  {"furnace", "furnace_published", "furnace_eon"},

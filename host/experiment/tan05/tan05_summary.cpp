@@ -107,7 +107,7 @@ std::vector<Record> measureTan05Knob(BenchRun& run, const Tan05Scene& scene,
   const View& view = scene.scene.view(name.word(1));
   const ShadingOptions full = turned(fullOptions(run, NormalMethod::kGmm), name);
   const auto renderer = preparedFrame(run, scene.scene, view, full, scene.textures);
-  const Samples times_ms = shadeTimesMs(*renderer, run.options().reps);
+  const Samples times_ms = shadeTimesMs(*renderer, run.reps());
 
   Tan05Settings settings = tan05Settings(run);
   settings.shading = turned(settings.shading, name);
@@ -133,7 +133,7 @@ const std::vector<std::string>& tan05SummaryMetrics() {
 
 std::vector<Record> measureTan05Summary(BenchRun& run, const Tan05Scene& scene) {
   const View& view = scene.scene.view(kSummaryView);
-  const int reps = run.options().reps;
+  const Repetitions reps = run.reps();
   const ShadingOptions options = fullOptions(run, NormalMethod::kGmm);
   const auto frame = [&](const ShadingOptions& chosen) {
     return preparedFrame(run, scene.scene, view, chosen, scene.textures);
@@ -146,7 +146,7 @@ std::vector<Record> measureTan05Summary(BenchRun& run, const Tan05Scene& scene) 
   narrow_options.lanes = 1;
   const auto half = frame(half_options), narrow = frame(narrow_options);
   const Samples one_lane = options.lanes > 1
-                               ? shadeInTurn(*narrow, *gmm, std::min(reps, kOneLaneReps)).ratios()
+                               ? shadeInTurn(*narrow, *gmm, reps.atMost(kOneLaneReps)).ratios()
                                : Samples{1};
   const bool same = relMse(gmm->readRadiance(), narrow->readRadiance()) == 0;
   const NormalMixtures fitted =
@@ -159,8 +159,7 @@ std::vector<Record> measureTan05Summary(BenchRun& run, const Tan05Scene& scene) 
   std::vector<Record> records = {
       record("gmm_over_toksvig", shadeInTurn(*gmm, *toksvig, reps).ratios(),
              "kernel events, in turn"),
-      record("fournier_over_gmm",
-             shadeInTurn(*fournier, *gmm, std::min(reps, kOneLaneReps)).ratios(),
+      record("fournier_over_gmm", shadeInTurn(*fournier, *gmm, reps.atMost(kOneLaneReps)).ratios(),
              "kernel events, in turn"),
       record("speedup_vs_w1", one_lane, "kernel events, in turn"),
       record("half_over_float", shadeInTurn(*half, *gmm, reps).ratios(), "kernel events, in turn"),

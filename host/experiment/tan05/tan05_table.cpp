@@ -99,6 +99,7 @@ const TableSpec& tan05Spec() {
            {"fit_ms", "ms", "fit", "mixtures of a 512×512 map, four lobes, not from the cache"}},
       .cost_ratios = {"gmm_over_toksvig"},
       .headline = Headline{"gmm_over_toksvig", "times Toksvig's time for mixtures of normals"},
+      .score = "shading_ms",
       .curves = {{"shading_ms"}},
       // Distances of the zoom-out are measured without a picture each.
       .pictures = {{.kind = PictureGroup::Kind::kStrips,

@@ -171,7 +171,7 @@ Tan05View measureTan05View(BenchRun& run, const Tan05Scene& scene, const View& v
     images.push_back(renderers.back()->readRadiance());
     pictures.emplace_back(method.name, display(images.back(), scene.scene));
   }
-  const std::vector<Samples> times_ms = shadeInTurn(renderers, run.options().reps);
+  const std::vector<Samples> times_ms = shadeInTurn(renderers, run.reps());
 
   Tan05View result;
   for (std::size_t m = 0; m < renderers.size(); ++m) {

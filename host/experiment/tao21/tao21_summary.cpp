@@ -36,7 +36,7 @@ Samples methodRatio(BenchRun& run, const Scene& scene, LtcMethod method) {
   original.ltc_method = LtcMethod::kOriginal;
   const auto multi = preparedFrame(run, scene, view, options);
   const auto single = preparedFrame(run, scene, view, original);
-  return shadeInTurn(*multi, *single, 2 * run.options().reps).ratios();
+  return shadeInTurn(*multi, *single, run.reps().scaled(2)).ratios();
 }
 
 struct EqualError {
@@ -120,12 +120,12 @@ namespace {
 void addPlane(BenchRun& run, std::vector<Record>& records) {
   const Scene plane = openScene(run.session().common, kTao21SummaryScene);
   const View& view = plane.view(kCurveView);
-  const int reps = run.options().reps;
+  const Repetitions reps = run.reps();
   ShadingOptions one_lane = run.shading();
   one_lane.lanes = 1;
   const auto narrow = preparedFrame(run, plane, view, one_lane);
   const auto wide = preparedFrame(run, plane, view, run.shading());
-  const Samples lanes = shadeInTurn(*narrow, *wide, std::min(reps, kOneLaneReps)).ratios();
+  const Samples lanes = shadeInTurn(*narrow, *wide, reps.atMost(kOneLaneReps)).ratios();
   const bool same = relMse(narrow->readRadiance(), wide->readRadiance()) == 0;
   Samples plane_ms = shadeTimesMs(*wide, reps), cost;
   const double peak_gflops = measurePeaks(run.device(), run.cache(), run.info().width).gflops;
@@ -191,8 +191,8 @@ std::vector<Record> measureTao21Curve(BenchRun& run, const std::string& case_nam
   else
     scene.area_lights = {regularLight(lamp, static_cast<int>(name.number(kVerticesKnob)))};
   const auto renderer = preparedFrame(run, scene, scene.view(kCurveView), run.shading());
-  return {run.record(tao21Spec(), case_name, "shading_ms",
-                     shadeTimesMs(*renderer, run.options().reps), "kernel events")};
+  return {run.record(tao21Spec(), case_name, "shading_ms", shadeTimesMs(*renderer, run.reps()),
+                     "kernel events")};
 }
 
 }  // namespace glintmark

@@ -64,6 +64,7 @@ const TableSpec& tao21Spec() {
       .cost_ratios = {"multiscale_over_original", "tao21_over_original"},
       .headline = Headline{"multiscale_over_original",
                            "times the original's time for multi-scale area lights"},
+      .score = "shading_ms",
       .curves = {{"shading_ms"}},
       .pictures = {{.kind = PictureGroup::Kind::kStrips,
                     .heading = "Side by side",

@@ -29,7 +29,7 @@ std::vector<Samples> measureTimes(BenchRun& run, const Scene& scene, const View&
   renderers.reserve(kMethodCount);
   for (int m = 0; m < kMethodCount; ++m)
     renderers.push_back(preparedFrame(run, scene, view, methodOptions(settings.shading, m)));
-  return shadeInTurn(renderers, run.options().reps);
+  return shadeInTurn(renderers, run.reps());
 }
 
 Image display(const Image& radiance, double exposure) {

@@ -31,8 +31,9 @@ struct FrameSamples {
 };
 
 // Adds frames with glints and without, in turn.
-void measureShading(FrameRenderer& glint, FrameRenderer& smooth, int reps, FrameSamples& samples) {
-  for (int rep = 0; rep < reps; ++rep) {
+void measureShading(FrameRenderer& glint, FrameRenderer& smooth, const Repetitions& reps,
+                    FrameSamples& samples) {
+  while (reps.wantsMore({&samples.with_ns, &samples.without_ns})) {
     stopIfInterrupted();
     const FrameTimes with = glint.shade();
     const FrameTimes without = smooth.shade();
@@ -47,9 +48,9 @@ struct PrepareSamples {
   Samples raster_ns, upload_ns, readback_ns;
 };
 
-PrepareSamples measurePrepare(FrameRenderer& renderer, int reps) {
+PrepareSamples measurePrepare(FrameRenderer& renderer, const Repetitions& reps) {
   PrepareSamples samples;
-  for (int rep = 0; rep < reps; ++rep) {
+  while (reps.wantsMore({&samples.raster_ns})) {
     stopIfInterrupted();
     FrameTimes times = renderer.prepare();
     samples.raster_ns.push_back(times.raster_ns);
@@ -142,7 +143,7 @@ Samples CaseMeasurement::measureSpeedup(FrameRenderer& glint, const Image& refer
   one_lane.lanes = 1;
   const auto narrow = frame(one_lane);
   checkSame(narrow->readRadiance(), reference, "W = 1");
-  return shadeInTurn(*narrow, glint, std::min(run_.options().reps, kZk16OneLaneReps)).ratios();
+  return shadeInTurn(*narrow, glint, run_.reps().atMost(kZk16OneLaneReps)).ratios();
 }
 
 void CaseMeasurement::addStaticCounts(const FrameRenderer& glint) {
@@ -222,11 +223,11 @@ Zk16Case CaseMeasurement::run() {
 
   // The peak in the middle of the frames, since the machine's speed may drift.
   FrameSamples frames;
-  const int reps = run_.options().reps;
-  measureShading(glint, smooth, (reps + 1) / 2, frames);
+  const Repetitions reps = run_.reps();
+  measureShading(glint, smooth, reps.scaled(0.5).atMost((run_.options().reps + 1) / 2), frames);
   const DevicePeaks peaks = measurePeaks(run_.device(), run_.cache(), shading_.lanes);
-  measureShading(glint, smooth, reps / 2, frames);
-  const PrepareSamples prepare = measurePrepare(glint, reps);
+  measureShading(glint, smooth, reps, frames);
+  const PrepareSamples prepare = measurePrepare(glint, run_.reps().atMost(run_.options().reps));
 
   addShading(frames, peaks.gflops);
   if (shading_.lanes > 1) {

@@ -77,6 +77,7 @@ const TableSpec& zk16Spec() {
             "up to `width` pixels. The paper's shader has 412 and 204"},
            {"cell_loop_instructions", "instructions", "instructions of the cell loop"}},
       .headline = Headline{"normalised_cost", "cost of glints per FLOP, the paper's GPU being 1"},
+      .score = "shading_event_ms",
       .frame_parts = {{"raster_ms", "rasterizing"},
                       {"upload_ms", "upload"},
                       {"frame_without_ms", "smooth shading"},

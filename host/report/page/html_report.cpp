@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "host/report/page/chart_section.h"
-#include "host/report/page/page_resources.h"
+#include "host/report/page/page_frame.h"
 #include "host/report/page/table_section.h"
 #include "host/report/record/case_records.h"
 #include "host/report/record/text_table.h"
@@ -100,22 +100,10 @@ std::string headerHtml(const Results& results, std::span<const TableSpec> known,
 
 std::string htmlReport(const Results& results, std::span<const TableSpec> known,
                        std::span<const ReportPicture> pictures, const std::string& source) {
-  std::string html =
-      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<meta name=\"color-scheme\" content=\"light dark\">\n<link rel=\"icon\" "
-      "href=\"data:,\">\n<title>glintmark, " +
-      escapeHtml(results.run.device) + "</title>\n<style>\n";
-  html += pageCss();
+  std::string html = pageHead("glintmark, " + results.run.device);
   const std::vector<std::string> tables = distinctValues(results.records, &Record::table);
-  html += "</style>\n</head>\n<body>\n" + headerHtml(results, known, tables, source) + "<main>\n";
-
-  std::string end = "</main>\n<script type=\"application/json\" id=\"records\">" +
-                    recordsJson(results.records) + "</script>\n<script>\n";
-  end += chartJs();
-  end += "\n</script>\n<script>\n";
-  end += pageJs();
-  end += "</script>\n</body>\n</html>\n";
+  html += headerHtml(results, known, tables, source) + "<main>\n";
+  const std::string end = pageEnd(recordsJson(results.records));
 
   // Tables are a small multiple of the records, hence the factor.
   const std::size_t others = html.size() + 2 * end.size();

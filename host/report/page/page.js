@@ -195,7 +195,47 @@
     };
   };
 
-  const makers = { tradeoff: tradeOffChart, curve: curveChart };
+  // A bar for each run, the shortest on top.
+  const runsChart = (canvas) => {
+    const values = canvas.dataset.values.split(";").map(Number);
+    const bars = canvas.dataset.labels.split(";").map((label, i) => ({ label, value: values[i] }));
+    bars.sort((a, b) => a.value - b.value);
+    return {
+      type: "bar",
+      data: {
+        labels: bars.map((bar) => bar.label),
+        datasets: [{ data: bars.map((bar) => bar.value), backgroundColor: palette[0], maxBarThickness: 22 }],
+      },
+      options: {
+        indexAxis: "y",
+        scales: { x: { ...logAxis(canvas.dataset.title, values), min: Math.min(...values) / 3 } },
+        plugins: { legend: { display: false } },
+      },
+    };
+  };
+
+  // A click on a column's name sorts its table by the cells' keys, the other way the next time.
+  const makeSortable = (table) => {
+    table.querySelectorAll("thead th").forEach((head, column) => {
+      const button = document.createElement("button");
+      button.innerHTML = head.innerHTML;
+      head.replaceChildren(button);
+      button.addEventListener("click", () => {
+        const down = head.getAttribute("aria-sort") === "ascending";
+        table.querySelectorAll("thead th").forEach((other) => other.removeAttribute("aria-sort"));
+        head.setAttribute("aria-sort", down ? "descending" : "ascending");
+        const key = (row) => row.cells[column].dataset.key ?? row.cells[column].textContent;
+        const compare = (a, b) => {
+          if (key(a) === "" || key(b) === "") return (key(a) === "") - (key(b) === "");
+          const by = Number(key(a)) - Number(key(b));
+          return (down ? -1 : 1) * (Number.isNaN(by) ? key(a).localeCompare(key(b)) : by);
+        };
+        table.tBodies[0].append(...[...table.tBodies[0].rows].sort(compare));
+      });
+    });
+  };
+
+  const makers = { tradeoff: tradeOffChart, curve: curveChart, runs: runsChart };
   const draw = () => {
     charts.splice(0).forEach((chart) => chart.destroy());
     setTheme();
@@ -277,6 +317,7 @@
   };
 
   draw();
+  document.querySelectorAll(".sortable table").forEach(makeSortable);
   const figures = [...document.querySelectorAll("figure[data-panels]")];
   Promise.all(figures.map(async (figure) => {
     const image = figure.querySelector("img");

@@ -22,6 +22,10 @@ float encodeSrgb(float x) {
   return x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1.0f / 2.4f) - 0.055f;
 }
 
+float decodeSrgb(float x) {
+  return x <= 0.04045f ? x / 12.92f : std::pow((x + 0.055f) / 1.055f, 2.4f);
+}
+
 Image toneMap(const Image& radiance, const ToneMapOptions& options) {
   if (radiance.channels != 1 && radiance.channels < 3) {
     throw Error("tone mapping needs an image of one channel or of red, green and blue");

@@ -13,6 +13,8 @@ struct ToneMapOptions {
 
 /// Display value of linear `x` in [0, 1] by the sRGB transfer function, IEC 61966-2-1.
 float encodeSrgb(float x);
+/// Its inverse.
+float decodeSrgb(float x);
 
 /// Exposes, compresses and sRGB-encodes the first three channels (or the only one, as grey) of a
 /// linear image into an RGB image in [0, 1]. Negative values and NaN become black, infinity white.

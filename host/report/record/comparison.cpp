@@ -41,8 +41,8 @@ using Key = std::tuple<std::string, std::string, std::string, std::map<std::stri
 Key keyOf(const Record& record) {
   std::map<std::string, std::string> config = record.config;
   config.erase("kernels");
-  config.erase("reps");
-  config.erase("timer");
+  for (const char* how : {"reps", "timer", "noise", "max_time_s", "warmup", "width"})
+    config.erase(how);
   return {record.table, record.case_, record.metric, std::move(config)};
 }
 
@@ -155,7 +155,8 @@ ComparisonReport compareResults(const Results& old_results, const Results& new_r
                  .metric = after.metric,
                  .unit = after.unit,
                  .old_value = old_record.value.median,
-                 .new_value = after.value.median};
+                 .new_value = after.value.median,
+                 .old_index = static_cast<std::size_t>(found->second - old_results.records.data())};
     c.p_value = welchOnMedians(old_record.value, after.value);
     c.change = judge(tables, old_record, after, c.p_value, threshold);
     const bool busy = !report.old_busy.empty() || !report.new_busy.empty();

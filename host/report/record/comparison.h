@@ -28,6 +28,7 @@ struct Comparison {
   double old_value = 0, new_value = 0;  // medians
   std::optional<double> p_value{};      // of the test below, where there are spreads
   Change change = Change::kSame;
+  std::size_t old_index = 0;  // of its record in the old results
 };
 
 struct ComparisonReport {
@@ -44,12 +45,12 @@ struct ComparisonReport {
 inline constexpr double kChangeLevel = 0.01;
 
 /// Compares the records of both that share table, case, metric and configuration (the kernels'
-/// build options and the number of repetitions left aside). The test is Welch's t on the medians:
-/// the standard error of a median is sqrt(pi / 2) stddev / sqrt(n), as for normal samples. Figures
-/// that are not times and have no spread are exact, so any difference beyond `threshold` (a
-/// fraction, 0.05 for 5 %) is a change; `tables` say which ratios are wanted small. The test knows
-/// nothing of drift between the two runs: where one of them says that its machine was busy, times
-/// that got worse are called busy.
+/// build options, lanes, how often it was timed and by which clock left aside). The test is Welch's
+/// t on the medians: the standard error of a median is sqrt(pi / 2) stddev / sqrt(n), as for normal
+/// samples. Figures that are not times and have no spread are exact, so any difference beyond
+/// `threshold` (a fraction, 0.05 for 5 %) is a change; `tables` say which ratios are wanted small.
+/// The test knows nothing of drift between the two runs: where one of them says that its machine
+/// was busy, times that got worse are called busy.
 ComparisonReport compareResults(const Results& old_results, const Results& new_results,
                                 std::span<const TableSpec> tables, double threshold);
 

@@ -62,6 +62,7 @@ struct TableSpec {
   std::vector<MetricSpec> metrics{};
   std::vector<std::string> cost_ratios{};  // ratios of times whose numerator is wanted small
   std::optional<Headline> headline{};
+  std::string score{};                  // metric of the table's one number; empty: it has none
   std::vector<TimePart> frame_parts{};  // drawn as bars, in the order of a frame
   // Metrics that are drawn over a knob together, the curves of one chart.
   std::vector<std::vector<std::string>> curves{};

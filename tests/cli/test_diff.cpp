@@ -1,0 +1,66 @@
+// diff on pictures written here.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "host/core/atomic_file.h"
+#include "host/report/picture/image_io.h"
+#include "tests/cli/process.h"
+
+namespace glintmark {
+namespace {
+
+class Diff : public testing::Test {
+ protected:
+  std::string write(const std::string& name, int width, float value) {
+    Image image(width, 20, 3);
+    for (float& v : image.pixels) v = value;
+    std::string file = folder_ / name;
+    file.ends_with(".png") ? writePng(image, file) : writeExr(image, file);
+    return file;
+  }
+  void expectRefused(std::vector<std::string> arguments, const std::string& sentence) {
+    arguments.insert(arguments.begin(), "diff");
+    const ProcessResult result = runGlintmark(arguments);
+    EXPECT_EQ(result.exit_code, 2) << result.out;
+    EXPECT_EQ(result.out, "");
+    EXPECT_NE(result.err.find(sentence), std::string::npos) << result.err;
+  }
+  const TempFolder folder_;
+};
+
+TEST_F(Diff, PrintsAndWritesWhatItFinds) {
+  const std::string a = write("a.exr", 24, 0.75f), b = write("b.exr", 24, 0.5f),
+                    json = folder_ / "metrics.json", png = folder_ / "error.png",
+                    exr = folder_ / "error.exr";
+  const ProcessResult result = runGlintmark({"diff", a, b, "-o", png, "--json", json});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("24x20 pixels of radiance, 100 % of them not black"), std::string::npos)
+      << result.out;
+  EXPECT_NE(readFile(json).find("glintmark.difference/1"), std::string::npos);
+  EXPECT_EQ(readImage(png).channels, 3);
+  const ProcessResult relative =
+      runGlintmark({"diff", a, b, "--no-hdr", "-o", exr, "--map", "relative", "--max", "1"});
+  EXPECT_EQ(relative.exit_code, 0) << relative.err;
+  EXPECT_EQ(relative.out.find("hdr_flip"), std::string::npos) << relative.out;
+  const Image layers = readImage(exr);
+  EXPECT_EQ(layers.channel_names.back(), "relative");
+  EXPECT_NEAR(layers.at(5, 5)[3], 0.25 / 0.51, 1e-6);
+}
+
+TEST_F(Diff, BadInput) {
+  const std::string a = write("a.exr", 24, 1), wide = write("wide.exr", 30, 1),
+                    display = write("a.png", 24, 1);
+  expectRefused({a, wide}, "24x20 and 30x20 pixels, expected two of one size");
+  expectRefused({display, a}, "the first picture holds display values");
+  expectRefused({a, folder_ / "none.exr"}, "none.exr");
+  expectRefused({a, a, "-o", folder_ / "e.jpg"}, "must end in .exr or .png");
+  expectRefused({a, a, "-o", folder_ / "e.png", "--map", "psnr"},
+                "maps are absolute, flip, hdr_flip, relative");
+  expectRefused({a, a, "--exposure", "0"}, "--exposure 0 is not a positive number");
+  expectRefused({a, a, "--trim", "80"}, "--trim 80 is not a percentage from 0 to 50");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "e.png"));
+}
+
+}  // namespace
+}  // namespace glintmark
