@@ -74,7 +74,7 @@ std::vector<ProbedDetail> probeDetails(const CheckContext& context, std::vector<
   return result;
 }
 
-glm::dvec3 raised(double elevation_rad, double turn_rad) {
+glm::dvec3 atElevation(double elevation_rad, double turn_rad) {
   return {std::cos(elevation_rad) * std::cos(turn_rad),
           std::cos(elevation_rad) * std::sin(turn_rad), std::sin(elevation_rad)};
 }
@@ -102,10 +102,10 @@ DetailCase detailCase(int vertices, double size, double alpha, unsigned seed,
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> turn(0, 2 * std::numbers::pi);
   std::normal_distribution<double> normal(0, 0.6);
-  DetailCase made{roundLight(vertices, size, raised(turn(random) / 8, turn(random))), {}};
+  DetailCase made{roundLight(vertices, size, atElevation(turn(random) / 8, turn(random))), {}};
   while (made.points.size() < kCasesPerLight) {
     const double elevation_deg = views_deg[made.points.size() % views_deg.size()];
-    const glm::dvec3 view = raised(elevation_deg * kDegree, turn(random));
+    const glm::dvec3 view = atElevation(elevation_deg * kDegree, turn(random));
     const glm::dvec3 m =
         glm::normalize(glm::dvec3(alpha * normal(random), alpha * normal(random), 1));
     const glm::dvec3 i = 2 * glm::dot(view, m) * m - view;
@@ -138,7 +138,7 @@ double reflectedBy(std::span<const glm::dvec3> light, const glm::dvec3& view, do
 }
 
 constexpr double kAllViews_deg[] = {3, 10, 20, 40, 60, 90};
-constexpr double kRoughness[] = {0.05, 0.1, 0.25, 0.5, 0.8};
+constexpr double kGlintRoughness[] = {0.05, 0.1, 0.25, 0.5, 0.8};
 constexpr double kDiscernible = 0.01;  // shares below it are not asked for
 
 // Kernel over truth, at one point.
@@ -152,7 +152,7 @@ struct DetailRatios {
 std::vector<DetailRatios> detailRatios(const CheckContext& context, reference::Ndf ndf) {
   std::vector<DetailRatios> ratios;
   unsigned seed = 0;
-  for (const double alpha : kRoughness)
+  for (const double alpha : kGlintRoughness)
     for (const double micro : {0.15, 0.6})
       for (const double size : {0.03, 0.2, 0.8}) {
         const int vertices = 3 + static_cast<int>(seed % 6);
