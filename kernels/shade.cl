@@ -38,9 +38,9 @@ WIDE vfloat3 shadeOwners(Shading shading, vint owner, size_t entry) {
 }
 #endif
 
-// planes: see Shading. radiance: three planes (r, g, b) of the same stride. cells: visited cells |
-// 2^31 where a limit cut the walk. With ALL_MATERIALS material, map and scatter are arrays over all
-// materials.
+// planes: see Shading. radiance: three planes (r, g, b) of the same stride. cell_counts: two
+// planes, visited cells | 2^31 where a limit cut the walk, and cells paid for. With ALL_MATERIALS
+// material, map and scatter are arrays over all materials.
 kernel void shade(global const uint* planes, constant const FrameParams* frame,
                   constant const MaterialParams* material, constant const LightParams* lights,
 #if NORMAL_MAP
@@ -97,7 +97,7 @@ kernel void shade(global const uint* planes, constant const FrameParams* frame,
 #endif
 #endif
 #if COUNT_CELLS
-  VisitedCells visited = {(vint)(0), (vint)(0)};
+  VisitedCells visited = {(vint)(0), (vint)(0), (vint)(0)};
   shading.visited = &visited;
 #endif
 
@@ -112,5 +112,6 @@ kernel void shade(global const uint* planes, constant const FrameParams* frame,
 #if COUNT_CELLS
   storeUint(bitsToUint(visited.count) | (visited.limited ? (vuint)(0x80000000u) : (vuint)(0u)),
             cell_counts, entry);
+  storeUint(bitsToUint(visited.paid), cell_counts, stride + entry);
 #endif
 }

@@ -74,6 +74,7 @@ int runView(const CommonOptions& common, const HeatmapCommand& command,
              shading.height_px, counted.counts.glint_px);
   fmt::print("min {}  mean {:.3f}  max {}  guard hits {}\n", counted.counts.min,
              counted.counts.mean, counted.counts.max, counted.counts.guard_hits);
+  fmt::print("mean {:.3f} with idle lanes and steps rounded up\n", counted.counts.paid_mean);
   fmt::print("{}", histogramText(cellDistribution(counted.cells)));
   return kExitDone;
 }

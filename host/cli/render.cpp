@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -12,6 +13,7 @@
 #include "host/core/progress.h"
 #include "host/core/trace.h"
 #include "host/experiment/run_inputs.h"
+#include "host/experiment/zoom_strip.h"
 #include "host/frame/frame_renderer.h"
 #include "host/frame/ground_truth.h"
 #include "host/frame/shading_options.h"
@@ -43,6 +45,7 @@ struct RenderOptions {
   std::string path;
   double step = 0.1;
   bool frames_given = false;
+  int zoom = 0;  // octaves; 0: one picture
   bool no_glints = false;
   bool star = false, star_chosen = false;
   std::optional<double> exposure;
@@ -89,6 +92,22 @@ bool coversNothing(const Image& radiance) {
   return true;
 }
 
+int runZoom(const CommonOptions& common, const RenderOptions& options,
+            const ShadingOptions& shading) {
+  if (std::filesystem::path(options.output).extension() != ".png")
+    throw Error(fmt::format("--output '{}' must end in .png: a zoom is a strip of pictures",
+                            options.output));
+  if (!options.aov_output.empty() || !options.trace.empty())
+    throw Error("--zoom makes many pictures; it does not go with --aov or --trace");
+  const Scene scene = openScene(common, options.scene);
+  const View& view = chosenView(scene, options.view);
+  Device device = openDevice(common);
+  const double exposure = options.exposure.value_or(scene.post.exposure);
+  writePng(zoomStrip(device, scene, view, shading, options.zoom, exposure, common.threads),
+           options.output);
+  return kExitDone;
+}
+
 void checkRenderOptions(const RenderOptions& options) {
   const std::string extension = requireImageExtension(options.output);
   requireWritableFile(options.output);
@@ -110,6 +129,8 @@ void checkRenderOptions(const RenderOptions& options) {
     throw Error(fmt::format("--frames {} is not from 1 to {}", options.frames, kMostFrames));
   if (options.frames_given != !options.path.empty())
     throw Error("--frames and --path go together: so many pictures along a path");
+  if (options.zoom != 0 && (options.frames_given || options.truth_spp > 0))
+    throw Error("--zoom makes a strip of frames; it does not go with --truth or --frames");
   if (options.frames_given && !(options.aov_output.empty() && options.trace.empty()))
     throw Error("--path makes no planes and no trace; leave --aov and --trace out");
   if (options.truth_spp > 0 && !(options.aov_output.empty() && options.trace.empty()))
@@ -219,6 +240,7 @@ int runRender(const CommandLine& line, const RenderOptions& options) {
       .method = parseMethod(options.method),
       .normal_method = parseChoice<NormalMethod>(options.normal_method, "normal method"),
       .glints = !options.no_glints};
+  if (options.zoom != 0) return runZoom(common, options, shading);
   const Scene scene = openScene(common, options.scene);
   const View& view = chosenView(scene, options.view);
   Device device = openDevice(common);
@@ -285,6 +307,10 @@ void addRenderCommand(Command app, CommandLine& line) {
       .option("--step", options->step,
               "From picture to picture: degrees, or per cent of the distance (default: 0.1)")
       .typeName("X");
+  command
+      .option("--zoom", options->zoom,
+              "Strip of pictures over so many octaves, through ever narrower fields of view")
+      .typeName("OCTAVES");
   command.flag("--no-glints", options->no_glints, "Smooth lobes in place of glints");
   const CommandOption star = command.flag("--star,!--no-star", options->star,
                                           "Star-shaped glare (default: the scene's for PNG)");
@@ -293,6 +319,7 @@ void addRenderCommand(Command app, CommandLine& line) {
       "Examples:\n"
       "  glintmark render snow -o snow.png --view grazing\n"
       "  glintmark render sand -o sand.exr --star --size 3840x2160\n"
+      "  glintmark render screen_plane -o zoom.png --zoom 20 --size 128x128\n"
       "  glintmark render car -o car.png --aov planes.exr --set material.paint.log_density=7\n"
       "  glintmark render disk -o truth.exr --truth 256 && glintmark render disk -o lean.exr \\\n"
       "    --normal-method lean && glintmark diff lean.exr truth.exr -o error.png\n"

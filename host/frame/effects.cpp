@@ -18,6 +18,7 @@ KernelConfig chosenConfig(const ProgramCall& call, int lanes) {
   config.cone_lights = !call.scene.lights.empty();
   config.light_cone = std::ranges::any_of(
       call.scene.lights, [](const ConeLight& light) { return light.direction.w > 0; });
+  config.ggx = call.material.ggx;
   config.diffuse = albedo.x > 0 || albedo.y > 0 || albedo.z > 0;
   if (!call.truth) setKnobs(call.options, kEveryProgram, config);
   for (const EffectModule* module : effectModules())

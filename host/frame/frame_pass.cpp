@@ -82,7 +82,7 @@ void FramePass::makeBuffers(Band& band, FrameTimes& times) {
       Buffer(device_, planes.stride * 4 * kernel_.result_planes, BufferPurpose::kRadiance);
   if (kernel_.truth) band.results.fillZero();
   if (options_.count_cells)
-    band.counts = Buffer(device_, planes.stride * 4, BufferPurpose::kCellCounts);
+    band.counts = Buffer(device_, 2 * planes.stride * 4, BufferPurpose::kCellCounts);
 }
 
 // Rasterizes into the planes' own memory, and puts them into the order that the programs want.

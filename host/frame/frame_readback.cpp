@@ -18,12 +18,13 @@ void forEachCount(const FramePass& pass, const Visit& visit) {
   if (!pass.options().count_cells)
     throw Error("cells were not counted: set ShadingOptions::count_cells before shading");
   for (const FramePass::Band& band : pass.bands()) {
-    std::vector<std::uint32_t> words(band.planes.stride);
+    std::vector<std::uint32_t> words(2 * band.planes.stride);  // visited, paid for
     if (!words.empty()) band.counts.read(words.data(), words.size() * 4);
     for (const FramePass::Launch& launch : band.launches) {
       if (!launch.config.count_cells) continue;
       const std::uint32_t end = launch.list.offset + launch.list.count;
-      for (std::uint32_t i = launch.list.offset; i < end; ++i) visit(band, i, words[i]);
+      for (std::uint32_t i = launch.list.offset; i < end; ++i)
+        visit(band, i, words[i], words[band.planes.stride + i]);
     }
   }
 }
@@ -56,7 +57,8 @@ Image readCellImage(const FramePass& pass) {
   Image image(pass.camera().width_px, pass.camera().height_px, 1);
   image.channel_names = {"cells"};
   std::ranges::fill(image.pixels, -1.0f);
-  forEachCount(pass, [&](const FramePass::Band& band, std::uint32_t entry, std::uint32_t word) {
+  forEachCount(pass, [&](const FramePass::Band& band, std::uint32_t entry, std::uint32_t word,
+                         std::uint32_t) {
     const std::uint32_t pixel = band.planes.plane(Plane::kPixel)[entry];
     image.at(static_cast<int>(pixel & 0xFFFFu), band.top_px + static_cast<int>(pixel >> 16))[0] =
         static_cast<float>(word & ~kLimitedBit);
@@ -67,8 +69,10 @@ Image readCellImage(const FramePass& pass) {
 CellCounts countCells(const FramePass& pass) {
   CellCounts result;
   std::uint32_t least = std::numeric_limits<std::uint32_t>::max();
-  double total = 0;
-  forEachCount(pass, [&](const FramePass::Band&, std::uint32_t, std::uint32_t word) {
+  double total = 0, paid = 0;
+  forEachCount(pass, [&](const FramePass::Band&, std::uint32_t, std::uint32_t word,
+                         std::uint32_t paid_cells) {
+    paid += paid_cells;
     const std::uint32_t cells = word & ~kLimitedBit;
     if (cells == 0) return;
     least = std::min(least, cells);
@@ -78,7 +82,9 @@ CellCounts countCells(const FramePass& pass) {
     if (word & kLimitedBit) ++result.guard_hits;
   });
   result.min = result.glint_px > 0 ? least : 0;
-  result.mean = result.glint_px > 0 ? total / static_cast<double>(result.glint_px) : 0;
+  if (result.glint_px == 0) return result;
+  result.mean = total / static_cast<double>(result.glint_px);
+  result.paid_mean = paid / static_cast<double>(result.glint_px);
   return result;
 }
 

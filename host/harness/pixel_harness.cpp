@@ -72,7 +72,7 @@ ShadedPixels shadePixels(KernelBench& bench, const HandMadeFrame& frame, KernelC
   const std::size_t stride = (n + GM_LIST_PADDING - 1) / GM_LIST_PADDING * GM_LIST_PADDING;
 
   Buffer radiance(device, stride * 12, BufferPurpose::kProbe, "radiance");
-  Buffer counts(device, stride * 4, BufferPurpose::kProbe, "counts");
+  Buffer counts(device, stride * 8, BufferPurpose::kProbe, "counts");
   ShadeArguments arguments(
       {.planes = probeData(bench, planeWords(frame, config.planes, stride)),
        .frame = probeData(bench, std::vector{paramsOf(frame, stride)}),
@@ -95,8 +95,10 @@ ShadedPixels shadePixels(KernelBench& bench, const HandMadeFrame& frame, KernelC
   for (std::size_t i = 0; i < n; ++i)
     result.radiance.emplace_back(words[i], words[stride + i], words[2 * stride + i]);
   if (config.count_cells) {
-    result.cells.resize(stride);
-    counts.read(result.cells.data(), stride * 4);
+    result.cells.resize(2 * stride);
+    counts.read(result.cells.data(), stride * 8);
+    const auto paid = result.cells.begin() + static_cast<std::ptrdiff_t>(stride);
+    result.paid.assign(paid, paid + static_cast<std::ptrdiff_t>(n));
     result.cells.resize(n);
     for (std::uint32_t& cells : result.cells) {
       result.limited.push_back((cells & kLimitedBit) != 0);

@@ -37,6 +37,7 @@ struct HandMadeFrame {
 struct ShadedPixels {
   std::vector<glm::vec3> radiance;
   std::vector<std::uint32_t> cells;  // empty unless cells are counted
+  std::vector<std::uint32_t> paid;   // cells that lanes worked through side by side
   std::vector<bool> limited;
 };
 

@@ -77,6 +77,18 @@ inline constexpr double kConeProbability = 0.05, kWideConeProbability = 0.15;
 inline constexpr double kWideGrooveProbability = 0.25;
 /// Anywhere, as a factor.
 inline constexpr double kProbabilityMagnitude = 5;
+/// GGX lobes under a cone, relative to the integral or the highlight: four Gaussians leave 3.3 %,
+/// quadrature over each 1.4 %.
+inline constexpr double kGgxTolerance = 0.05;
+/// What one reflecting microdetail sends of a polygon, relative, at views from 3 degrees on: an
+/// ellipse stands for the light's half vectors, and one direction for all of its light.
+inline constexpr double kPolygonBrightness = 0.2;
+/// The same of lights that are points to a microdetail.
+inline constexpr double kTinyPolygonBrightness = 0.02;
+/// The share of reflecting microdetails under a polygon, relative, from 30 degrees on: what the
+/// transformed cosine reflects too much or too little. A Gaussian falls off faster than a cosine
+/// can be bent to.
+inline constexpr double kGgxPolygonProbability = 0.1, kPolygonProbability = 0.25;
 inline constexpr double kConeDiffuseTolerance = 0.002;
 
 /// Form factors: single precision over a dozen terms of at most 1/2, and the edge fit's 1e-7.

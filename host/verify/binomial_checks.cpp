@@ -158,6 +158,52 @@ Finding expandedTail(const CheckContext& context) {
   return finding;
 }
 
+// [ZK16] Sect. 4.3 with i terms: the exact distribution up to k = i, then the exponential tail.
+double cappedDraw(double u, double n, double p, int i) {
+  double term = std::pow(1 - p, n), above = 1 - term;  // P(K = 0), P(K > 0)
+  for (int k = 0; k <= i; ++k) {
+    if (above <= u) return k;
+    if (k == i) break;
+    term *= (n - k) / (k + 1) * p / (1 - p);
+    above -= term;
+  }
+  const double cut = 1 - std::pow(p, n - i - 1);
+  return i + 1 + std::floor(std::log(1 - cut * (1 - u / above)) / std::log(p));
+}
+
+// With few terms the tail holds many draws; after 16 it is out of reach.
+Finding fewTerms(const CheckContext& context) {
+  constexpr std::size_t kDraws = 8192;
+  Finding finding(kFlippedDrawShare);
+  for (const int terms : {2, 4, 8})
+    for (const auto& [n, p] : {std::pair{12.f, 0.25f}, {40.f, 0.09f}, {1000.f, 0.003f}}) {
+      std::vector<std::uint32_t> bits;
+      for (std::size_t i = 0; i < kDraws; ++i)
+        bits.push_back(
+            static_cast<std::uint32_t>((static_cast<double>(i) + 0.5) / kDraws * 0x1p32));
+      std::vector<float> k(kDraws);
+      Buffer out(context.bench.device, kDraws * 4, BufferPurpose::kProbe, "draws");
+      const std::vector<KernelArg> args = {probeData(context.bench, bits),
+                                           probeData(context.bench, std::vector<float>(kDraws, n)),
+                                           probeData(context.bench, std::vector<float>(kDraws, p)),
+                                           out, static_cast<std::uint32_t>(kDraws)};
+      probeKernel(
+          context.bench, "probes/probe_binomial.cl", "probeBinomial",
+          fmt::format("-D WIDTH={} -D BINOMIAL=3 -D BINOMIAL_TERMS={}", context.lanes, terms))
+          .launch(args, kDraws / static_cast<std::size_t>(context.lanes), kLocalSize);
+      out.read(k.data(), kDraws * 4);
+      double different = 0, tail = 0;
+      for (std::size_t i = 0; i < kDraws; ++i) {
+        const double want = cappedDraw(reference::uniformOf(bits[i]), n, p, terms);
+        different += k[i] != want;
+        tail += want > terms;
+      }
+      finding.add(different / kDraws);
+      finding.require(terms > 4 || tail > 50, "too few draws of the tail");
+    }
+  return finding;
+}
+
 Finding sameDraws(const CheckContext& context, GlintMethod method) {
   std::mt19937 random(12);
   std::vector<std::uint32_t> bits;
@@ -196,6 +242,7 @@ std::vector<Check> binomialChecks() {
     add("deep_tail", "draws beyond the least uniform's", deepTail);
     add("same_bits", "draws that differ from one lane's", sameDraws);
   }
+  checks.push_back({"binomial/few_terms", "share of draws that differ", fewTerms});
   checks.push_back({"binomial/exact_tail", "mean distance from Boost.Math", expandedTail});
   return checks;
 }

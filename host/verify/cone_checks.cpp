@@ -171,6 +171,32 @@ Finding probability(const CheckContext& context, ConeKind kind) {
   return finding;
 }
 
+// Cones that are points to the surface and none to a microdetail, seen and lit along the normal and
+// at a slant along either axis: every one.
+Finding narrowProbability(const CheckContext& context) {
+  Finding finding(kConeProbability);
+  for (const double half_deg : {0.3, 1.0, 2.0}) {
+    const double half_rad = half_deg * kDegree;
+    const glm::dvec2 alpha(0.5, 0.4);
+    const double micro = 0.8 * half_rad;  // some two thirds of the cone's slopes
+    std::vector<ConeCase> cases;
+    for (const double slant_deg : {0.0, 30.0, 55.0})
+      for (const double turn : {0.0, 0.5, 1.0}) {
+        const double azimuth = turn * std::numbers::pi;
+        const glm::dvec3 view = raised((90 - slant_deg) * kDegree, azimuth);
+        const glm::dvec3 m = glm::normalize(glm::dvec3(0.1, -0.05, 1));
+        cases.push_back({2 * glm::dot(view, m) * m - view, view});
+      }
+    const auto probed = probeCones(context, cases, materialOf(alpha, micro), half_rad, false);
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      const double want = reference::coneProbability({cases[i].axis, half_rad}, cases[i].view,
+                                                     alpha, micro * alpha, false, kConeSamples);
+      finding.add(std::abs(probed[i].probability / want - 1));
+    }
+  }
+  return finding;
+}
+
 // A lobe of mapped normals whose mean is tilted, against brute force over the cone of the same lobe
 // under points (variance 0: of the smooth lobe in the normal's frame).
 Finding mapped(const CheckContext& context, double half_deg) {
@@ -304,6 +330,7 @@ std::vector<Check> coneChecks() {
     add(group + "diffuse", "absolute error", diffuse, half_deg);
     add(group + "glints", "mean over the smooth lobe - 1", glints, half_deg);
   }
+  checks.push_back({"cone/narrow_probability", "relative error", narrowProbability});
   return checks;
 }
 

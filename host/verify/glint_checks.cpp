@@ -170,6 +170,33 @@ Finding cellRange(const CheckContext& context) {
   return finding;
 }
 
+// Cells paid for, by brute force over the counts: lanes side by side walk as long as the longest of
+// them, two steps of two cells at a time.
+Finding paidCells(const CheckContext& context) {
+  const DrawCase c = {"", kZk16, {.3f, .3f}, {.05f, .05f}, 1e6f, 0, false, 16, {1e-4, 1e-2, 200}};
+  HandMadeFrame frame = drawFrame(c);
+  frame.pixels = randomPixels(4096, c.footprints);
+  for (HandMadePixel& pixel : frame.pixels) pixel.frame = flatFrame();
+  frame.ray_origin = {0, 0, -1};
+  frame.ray_dx = frame.ray_dy = glm::dvec3(0);
+  const ShadedPixels shaded = drawPixels(context, c, frame);
+  const auto lanes = static_cast<std::size_t>(context.lanes);
+  Finding finding(0);
+  double different = 0, visited = 0, paid = 0;
+  for (std::size_t first = 0; first < shaded.cells.size(); first += lanes) {
+    std::uint32_t most = 0;
+    for (std::size_t i = first; i < first + lanes; ++i) most = std::max(most, shaded.cells[i]);
+    for (std::size_t i = first; i < first + lanes; ++i) {
+      different += shaded.paid[i] != (most + 3) / 4 * 4;
+      visited += shaded.cells[i];
+      paid += shaded.paid[i];
+    }
+  }
+  finding.add(different);
+  finding.require(context.lanes == 1 || paid > visited, "idle lanes cost nothing");
+  return finding;
+}
+
 // The grids that footprints of any size and shape meet: log2 of the cell size, which the finer
 // level and the coarser grid's weight add up to, and the stretched box.
 Finding footprintLevels(const CheckContext& context) {
@@ -286,6 +313,7 @@ std::vector<Check> glintChecks() {
                       [&c](const CheckContext& context) { return drawForDraw(context, c); }});
   checks.push_back({"cells/footprint", "error in units of its bound", footprintLevels});
   checks.push_back({"cells/zk16_range", "pixels outside 8 to 64 cells", cellRange});
+  checks.push_back({"cells/paid", "pixels that pay for other cells", paidCells});
   checks.push_back(
       {"cells/groove_length", "change along a long groove, of the contrast", grooveLength});
   for (const WidthCase& c : kWidthCases)

@@ -26,7 +26,7 @@ kernel void methodRatios(global const uint* pixels, constant const MaterialParam
   const LightLobe lobe =
       pointLobe(direction, direction, smithLambda(direction, material->surface.alpha_g), material);
   const PixelGlints pixel = makePixelGlints(uv, material);
-  VisitedCells not_counted = {(vint)(0), (vint)(0)};
+  VisitedCells not_counted = {(vint)(0), (vint)(0), (vint)(0)};
   const vfloat3 ratio = microdetailRatio(&pixel, lobe, material, 0.0f, &not_counted);
   storeFloat(ratio.x, ratios, i);
   storeFloat(ratio.y, ratios, stride + i);

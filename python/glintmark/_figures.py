@@ -51,7 +51,7 @@ def plot(results, table, metric=None, axes=None):
     axes.invert_yaxis()
     axes.set_xscale("log")
     axes.set_xlabel(metric if unit in ("", "1") else f"{metric} [{unit}]")
-    axes.legend(fontsize="small")
+    axes.legend(fontsize="small", loc="lower left", bbox_to_anchor=(0, 1))
     return axes
 
 

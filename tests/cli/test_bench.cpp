@@ -83,9 +83,10 @@ TEST(Bench, WritesEveryFile) {
     EXPECT_TRUE(record.config.contains("kernels"));
   }
   for (const char* metric :
-       {"shading_ms", "shading_event_ms", "ns_per_cell", "speedup_vs_w1", "cells_min", "cells_mean",
-        "cells_max", "guard_hits", "raster_ms", "upload_ms", "readback_ms", "build_ms",
-        "first_enqueue_ms", "triangles", "covered_px", "glint_share", "buffer_bytes_per_px"}) {
+       {"shading_ms", "shading_event_ms", "ns_per_cell", "ns_per_paid_cell", "speedup_vs_w1",
+        "cells_min", "cells_mean", "cells_paid_mean", "cells_max", "guard_hits", "raster_ms",
+        "upload_ms", "readback_ms", "build_ms", "first_enqueue_ms", "triangles", "covered_px",
+        "glint_share", "buffer_bytes_per_px"}) {
     EXPECT_TRUE(metrics.contains(metric)) << metric;
   }
   EXPECT_EQ(lineCount(folder / "r/records.jsonl"), results.records.size() + 1);

@@ -129,6 +129,7 @@ TEST(RenderFacts, TheDateOfARunMayBeGiven) {
 TEST(RenderTruth, BadInput) {
   for (const std::vector<std::string>& words : {std::vector<std::string>{"--truth", "-3"},
                                                 {"--truth", "4", "--aov", "planes.exr"},
+                                                {"--zoom", "3", "--truth", "4"},
                                                 {"--truth", "2000000"}}) {
     std::vector<std::string> arguments = {"render", "disk", "-o", "picture.exr"};
     arguments.insert(arguments.end(), words.begin(), words.end());

@@ -1,15 +1,21 @@
 // The fit, and the tables that ship: against their own refit, against quadrature, against the
 // published table where it is at hand.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
 #include <vector>
 
 #include "host/core/error.h"
 #include "host/fit/ltc_error.h"
 #include "host/fit/ltc_fit.h"
+#include "host/fit/ltc_lobe.h"
 #include "host/fit/ltc_objective.h"
 #include "host/fit/minimize.h"
 #include "host/reference/ltc.h"
@@ -238,6 +244,47 @@ TEST(LtcFit, NoWorseThanThePublishedTable) {
   const LtcErrors ours = ltcNodeErrors(shippedLtcTable(Ndf::kGgx));
   EXPECT_LT(ours.mean(), 0.75 * theirs.mean());
   EXPECT_LT(ours.max(), theirs.max());
+}
+
+// Our own table in the layout of ltc.mat stands in for the published one, which is not everywhere:
+// M, not its inverse, column by column, and magnitudes.
+TEST(PublishedLtc, ATableInItsLayoutIsReadBack) {
+  const LtcTable ours = shippedLtcTable(Ndf::kGgx);
+  std::string text;
+  const auto add = [&](const std::string& name, const std::function<double(int, int)>& value) {
+    text += "# name: " + name + "\n# type: matrix\n# rows: 64\n# columns: 64\n";
+    for (int y = 0; y < 64; ++y) {
+      for (int x = 0; x < 64; ++x) text += fmt::format(" {:.17g}", value(x, y));
+      text += "\n";
+    }
+  };
+  const auto inverseAt = [&](int x, int y) {
+    return ltcInverseMatrix(ours.cell(x, y), ltcFitAlpha(x, 64), ltcRowCosine(y, 64));
+  };
+  add("tabMagnitude", [&](int x, int y) { return ours.cell(x, y).albedo; });
+  for (int column = 0; column < 3; ++column)
+    for (int row = 0; row < 3; ++row)
+      add(fmt::format("tab{}{}", column, row),
+          [&](int x, int y) { return glm::inverse(inverseAt(x, y))[column][row]; });
+  const auto path =
+      std::filesystem::temp_directory_path() / fmt::format("glintmark_ltc_{}.mat", ::getpid());
+  std::ofstream(path) << text;
+  const LtcTable read = readPublishedLtc(path);
+  std::filesystem::remove(path);
+  for (const auto& [x, y] : {std::pair{0, 0}, {5, 60}, {20, 33}, {63, 0}, {40, 63}, {63, 63}}) {
+    const LtcCell cell = read.cell(x, y);
+    EXPECT_NEAR(cell.albedo, ours.cell(x, y).albedo, 1e-6) << x << " " << y;
+    const glm::dmat3 want = inverseAt(x, y),
+                     got = ltcInverseMatrix(cell, ltcFitAlpha(x, 64), ltcRowCosine(y, 64));
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        EXPECT_NEAR(got[i][j], want[i][j], 1e-5 * (1 + std::abs(want[i][j]))) << x << " " << y;
+    if (y == 63) continue;
+    EXPECT_NEAR(ltcCellError(Ndf::kGgx, cell, ltcFitAlpha(x, 64), ltcRowCosine(y, 64)),
+                ltcCellError(Ndf::kGgx, ours.cell(x, y), ltcFitAlpha(x, 64), ltcRowCosine(y, 64)),
+                0.05)
+        << x << " " << y;
+  }
 }
 
 TEST(PublishedLtc, OtherFilesAreRefused) {

@@ -169,6 +169,9 @@ void CaseMeasurement::addShading(const FrameSamples& frames, double peak_gflops)
   add("frame_with_ms", scaled(frames.with_ns, kMsPerNs), "enqueue to finish");
   add("frame_without_ms", scaled(frames.without_ns, kMsPerNs), "enqueue to finish");
   add("ns_per_cell", scaled(frames.difference_ns, cells > 0 ? 1 / cells : 0));
+  const double paid = counts.paid_mean * static_cast<double>(counts.glint_px);
+  add("ns_per_paid_cell", scaled(frames.difference_ns, paid > 0 ? 1 / paid : 0),
+      "of cells that lanes work through side by side");
   if (const std::optional<double> paper_ms = paperMs()) {
     add("normalised_cost",
         scaled(frames.difference_ns,
@@ -183,6 +186,7 @@ void CaseMeasurement::addFacts(const FrameRenderer& glint, const PrepareSamples&
   const double pixels = static_cast<double>(shading_.width_px) * shading_.height_px;
   add("cells_min", {static_cast<double>(counts.min)});
   add("cells_mean", {counts.mean});
+  add("cells_paid_mean", {counts.paid_mean}, "idle lanes and steps rounded up included");
   add("cells_max", {static_cast<double>(counts.max)});
   add("guard_hits", {static_cast<double>(counts.guard_hits)});
   add("raster_ms", scaled(prepare.raster_ns, kMsPerNs));
@@ -249,12 +253,12 @@ Zk16Case CaseMeasurement::run() {
 
 const std::vector<std::string>& zk16Metrics() {
   static const std::vector<std::string> metrics = {
-      "shading_ms",  "shading_event_ms", "frame_with_ms",       "frame_without_ms",
-      "ns_per_cell", "speedup_vs_w1",    "cells_min",           "cells_mean",
-      "cells_max",   "guard_hits",       "raster_ms",           "upload_ms",
-      "readback_ms", "build_ms",         "first_enqueue_ms",    "triangles",
-      "covered_px",  "glint_share",      "buffer_bytes_per_px", "peak_gflops",
-      "peak_gbs"};
+      "shading_ms",          "shading_event_ms", "frame_with_ms", "frame_without_ms",
+      "ns_per_cell",         "ns_per_paid_cell", "speedup_vs_w1", "cells_min",
+      "cells_mean",          "cells_paid_mean",  "cells_max",     "guard_hits",
+      "raster_ms",           "upload_ms",        "readback_ms",   "build_ms",
+      "first_enqueue_ms",    "triangles",        "covered_px",    "glint_share",
+      "buffer_bytes_per_px", "peak_gflops",      "peak_gbs"};
   return metrics;
 }
 

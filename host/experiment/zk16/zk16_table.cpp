@@ -35,6 +35,7 @@ const TableSpec& zk16Spec() {
            {"frame_without_ms", "ms", "frame without"},
            {"ns_per_cell", "ns", "time per cell",
             "`shading_ms` over all cells that the frame visits, on all cores together"},
+           {"ns_per_paid_cell", "ns", "time per cell paid for", "the same over `cells_paid_mean`"},
            {"normalised_cost", "1", "cost per FLOP over the paper's",
             "(`shading_ms` × peak of this device) / (paper's ms × 4980 GFLOP/s, the GTX 980's "
             "boost "
@@ -47,6 +48,9 @@ const TableSpec& zk16Spec() {
             "over pixels of glint materials that some light reaches, by a separate counting build, "
             "never while timing"},
            {"cells_mean", "cells", "mean cells"},
+           {"cells_paid_mean", "cells", "mean cells paid for",
+            "cells that lanes work through side by side, those of idle lanes and of steps rounded "
+            "up included, over the same pixels"},
            {"cells_max", "cells", "most cells"},
            {"guard_hits", "pixels", "pixels cut short",
             "pixels whose walk the limit of 64 cells cut short"},

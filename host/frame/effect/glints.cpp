@@ -7,7 +7,10 @@ namespace {
 // Grooves are glints to the kernels. The ground truth keeps to what glints are on average.
 void chooseGlints(const ProgramCall& call, KernelConfig& config) {
   const Material& material = call.material;
-  config.glint = material.has_glints && call.options.glints && !call.truth && config.cone_lights;
+  const bool area_lights = !call.scene.area_lights.empty();
+  config.glint = material.has_glints && call.options.glints && !call.truth &&
+                 (config.cone_lights || area_lights);
+  config.area_glints = config.glint && area_lights;
   config.size_variation = config.glint && material.params.glints.size_variation > 0;
   config.count_cells = config.glint && call.options.count_cells;
   setKnobs(call.options, &KernelConfig::glint, config);
@@ -15,7 +18,7 @@ void chooseGlints(const ProgramCall& call, KernelConfig& config) {
 
 void chooseGlintsForAll(std::span<const KernelConfig>, const ShadingOptions& options,
                         KernelConfig& all) {
-  all.size_variation = true;
+  all.size_variation = all.area_glints = true;
   setKnobs(options, &KernelConfig::glint, all);
 }
 

@@ -11,7 +11,6 @@ void chooseLtc(const ProgramCall& call, KernelConfig& config) {
   const std::vector<AreaLight>& lights = call.scene.area_lights;
   config.ltc = !lights.empty();
   if (!config.ltc) return;
-  config.ggx = call.material.ggx;
   std::size_t most_vertices = 3;
   for (const AreaLight& light : lights) {
     most_vertices = std::max(most_vertices, light.vertices.size());
