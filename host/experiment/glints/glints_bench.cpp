@@ -187,7 +187,7 @@ void measure(BenchRun& run) {
 
 std::string text(const BenchRun& run) {
   const std::vector<Record> records = run.recordsOf(glintsSpec().name);
-  return fmt::format("Methods of glints on a plane at {}, {} lanes, on {:.60}\n\n",
+  return fmt::format("Methods of glints on a plane at {}, {} lanes\non {:.90}\n\n",
                      run.options().size, run.info().width, run.info().device) +
          glintsTableText(records) + "\n" + glintsClaimsText(records) + invalidText(records);
 }
