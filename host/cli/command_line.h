@@ -23,6 +23,7 @@ void addFitCommand(Command app, CommandLine& line);
 void addCompareCommand(Command app, CommandLine& line);
 void addDiffCommand(Command app, CommandLine& line);
 void addReportCommand(Command app, CommandLine& line);
+void addProfileCommand(Command app, CommandLine& line);
 void addVerifyCommand(Command app, CommandLine& line);
 
 }  // namespace glintmark

@@ -57,11 +57,12 @@ int runView(const CommonOptions& common, const HeatmapCommand& command,
   const CountedCells counted = countCells(device, scene, view, shading, common.threads);
 
   const std::string name = scene.name + "/" + view.name;
+  const std::string unit = visitedUnit(shading.method);
   if (counted.counts.glint_px == 0)
     fmt::print(stderr, "note: no pixel of {} shows glints, so there are no cells\n", name);
   if (!command.picture.empty()) {
     const Image picture = heatmapPicture(counted.cells, {.scale = scale,
-                                                         .title = name + ", cells per pixel",
+                                                         .title = name + ", " + unit + " per pixel",
                                                          .guard_hits = counted.counts.guard_hits});
     writePng(picture, command.picture);
   }
@@ -70,8 +71,8 @@ int runView(const CommonOptions& common, const HeatmapCommand& command,
     cells.channel_names = {"cells"};
     writeExr(cells, command.exr);
   }
-  fmt::print("{} {}x{}, cells per pixel over {} glint pixels\n", name, shading.width_px,
-             shading.height_px, counted.counts.glint_px);
+  fmt::print("{} {}x{}, {} per pixel over {} glint pixels\n", name, shading.width_px,
+             shading.height_px, unit, counted.counts.glint_px);
   fmt::print("min {}  mean {:.3f}  max {}  guard hits {}\n", counted.counts.min,
              counted.counts.mean, counted.counts.max, counted.counts.guard_hits);
   fmt::print("mean {:.3f} with idle lanes and steps rounded up\n", counted.counts.paid_mean);

@@ -65,6 +65,7 @@ int runProgram(int argc, const char* const* argv) {
   addCompareCommand(app, line);
   addDiffCommand(app, line);
   addReportCommand(app, line);
+  addProfileCommand(app, line);
   addVerifyCommand(app, line);
   app.shareOptions();
 

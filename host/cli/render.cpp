@@ -10,27 +10,41 @@
 #include "host/cli/command_line.h"
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
+#include "host/core/progress.h"
 #include "host/core/trace.h"
+#include "host/experiment/run_inputs.h"
 #include "host/experiment/zoom_strip.h"
 #include "host/frame/frame_renderer.h"
+#include "host/frame/ground_truth.h"
 #include "host/frame/shading_options.h"
 #include "host/ocl/device_clock.h"
 #include "host/ocl/switches.h"
+#include "host/report/metrics.h"
 #include "host/report/picture/aov.h"
 #include "host/report/picture/image_io.h"
+#include "host/report/picture/picture_facts.h"
 #include "host/report/picture/star.h"
 #include "host/report/picture/tonemap.h"
 #include "host/report/record/trace_file.h"
+#include "host/scene/view_path.h"
 
 namespace glintmark {
 namespace {
 
+constexpr int kMostTruthSpp = 1 << 20;
+constexpr int kMostFrames = 100000;
 // Closest to placed microdetails (docs/accuracy.md); what is measured keeps the paper's.
 constexpr GlintMethod kRenderMethod = GlintMethod::kDistributed;
 
 struct RenderOptions {
   std::string scene, view, output, aov_output, trace;
   std::string size = "1920x1080", method = choiceName(kRenderMethod);
+  std::string normal_method = choiceName(ShadingOptions{}.normal_method);
+  int truth_spp = 0;  // 0: a frame
+  int frames = 0;     // of a path; 0: one picture, without a number
+  std::string path;
+  double step = 0.1;
+  bool frames_given = false;
   int zoom = 0;  // octaves; 0: one picture
   bool no_glints = false;
   bool star = false, star_chosen = false;
@@ -49,16 +63,16 @@ void printTimes(const std::string& what, const FrameTimes& raster, const FrameTi
 // PNG gets the scene's post effects. EXR holds radiance for measuring, with the star only on
 // demand.
 void writeRendered(Image radiance, const RenderOptions& options, const PostEffects& post,
-                   const std::string& extension) {
+                   const std::string& extension, const PictureFacts& facts) {
   const bool is_png = extension == ".png";
   const double exposure = options.exposure.value_or(post.exposure);
   if (options.star_chosen ? options.star : is_png && post.star) {
     applyStar(radiance, {.threshold = 1 / exposure});  // exposed radiance 1
   }
   if (is_png) {
-    writePng(toneMap(radiance, {.exposure = exposure}), options.output);
+    writePng(toneMap(radiance, {.exposure = exposure}), options.output, facts);
   } else {
-    writeExr(radiance, options.output);
+    writeExr(radiance, options.output, facts);
   }
 }
 
@@ -94,8 +108,7 @@ int runZoom(const CommonOptions& common, const RenderOptions& options,
   return kExitDone;
 }
 
-int runRender(const CommandLine& line, const RenderOptions& options) {
-  const CommonOptions& common = line.common;
+void checkRenderOptions(const RenderOptions& options) {
   const std::string extension = requireImageExtension(options.output);
   requireWritableFile(options.output);
   if (!options.aov_output.empty()) {
@@ -109,16 +122,138 @@ int runRender(const CommandLine& line, const RenderOptions& options) {
     throw Error(fmt::format("--exposure {} is not a positive number", *options.exposure));
   }
   if (!options.trace.empty()) requireWritableFile(options.trace);
+  if (options.truth_spp < 0 || options.truth_spp > kMostTruthSpp)
+    throw Error(fmt::format("--truth {} is not from 1 to {} samples a pixel", options.truth_spp,
+                            kMostTruthSpp));
+  if (options.frames_given && (options.frames < 1 || options.frames > kMostFrames))
+    throw Error(fmt::format("--frames {} is not from 1 to {}", options.frames, kMostFrames));
+  if (options.frames_given != !options.path.empty())
+    throw Error("--frames and --path go together: so many pictures along a path");
+  if (options.zoom != 0 && (options.frames_given || options.truth_spp > 0))
+    throw Error("--zoom makes a strip of frames; it does not go with --truth or --frames");
+  if (options.frames_given && !(options.aov_output.empty() && options.trace.empty()))
+    throw Error("--path makes no planes and no trace; leave --aov and --trace out");
+  if (options.truth_spp > 0 && !(options.aov_output.empty() && options.trace.empty()))
+    throw Error("--truth makes no planes and no trace; leave --aov and --trace out");
+}
+
+// Supersampled radiance; says how far from it the samples may be.
+Image renderedTruth(const CommandLine& line, Device& device, const Scene& scene, const View& view,
+                    const ShadingOptions& shading, int spp) {
+  const bool has_glints = std::ranges::any_of(scene.materials, &Material::has_glints);
+  if (has_glints && shading.glints && !line.common.quiet)
+    fmt::print(stderr, "note: the truth shades glints as the smooth lobe that is their mean\n");
+  Progress progress(line.common.quiet);
+  TruthImages truth = renderTruth(
+      device, scene, view, shading, spp,
+      [&](int done) { progress.show(done, spp, "samples a pixel"); }, line.common.threads);
+  progress.clear();
+  double mean = 0, error = 0;
+  for (std::size_t i = 0; i < truth.standard_error.pixels.size(); ++i) {
+    mean += truth.mean.pixels[i / 3 * 4 + i % 3];
+    error += truth.standard_error.pixels[i];
+  }
+  fmt::print("{}/{} {}x{}: {} samples a pixel, mean standard error at most {:.2g} of the mean\n",
+             scene.name, view.name, shading.width_px, shading.height_px, spp,
+             mean > 0 ? error / mean : 0.0);
+  return std::move(truth.mean);
+}
+
+// 1 if it is not finite everywhere, which is said; a picture that is empty is noted.
+int judgePicture(const Image& radiance, const Scene& scene, const View& view) {
+  if (coversNothing(radiance))
+    fmt::print(stderr, "note: view {} of {} covers no pixel, so the picture is empty\n", view.name,
+               scene.name);
+  const std::size_t broken = brokenPixels(radiance);
+  if (broken == 0) return kExitDone;
+  fmt::print(stderr,
+             "glintmark: {} pixels of the picture are not finite: some value of the scene is too "
+             "large for single precision\n",
+             broken);
+  return kExitCheckFailed;
+}
+
+// "a_0007.png" of "a.png": as many digits as the last number has, four at least.
+std::string numbered(const std::string& output, int frame, int frames) {
+  const std::filesystem::path path(output);
+  const std::size_t digits = std::max<std::size_t>(4, std::to_string(frames - 1).size());
+  const std::string name =
+      fmt::format("{}_{:0{}}{}", path.stem().string(), frame, digits, path.extension().string());
+  return (path.parent_path() / name).string();
+}
+
+// A picture for every step of a path; says how much changes from one to the next.
+int renderPath(const CommandLine& line, const RenderOptions& options, Device& device,
+               const Scene& scene, const View& view, const ShadingOptions& shading,
+               const PictureFacts& facts) {
+  const ViewPath path = parseViewPath(options.path);
+  viewOnPath(view, path, options.step * (options.frames - 1));  // refuses what cannot be reached
+  Progress progress(line.common.quiet);
+  double sum = 0, largest = 0;
+  int code = kExitDone;
+  Image before;
+  for (int frame = 0; frame < options.frames; ++frame) {
+    progress.show(frame, options.frames, "frames");
+    const View moved = viewOnPath(view, path, options.step * frame);
+    Image radiance;
+    if (options.truth_spp > 0) {
+      radiance =
+          renderTruth(device, scene, moved, shading, options.truth_spp, {}, line.common.threads)
+              .mean;
+    } else {
+      FrameRenderer renderer(device, scene, moved, shading, line.common.threads);
+      renderer.prepare();
+      renderer.shade();
+      radiance = renderer.readRadiance();
+    }
+    code = std::max(code, judgePicture(radiance, scene, moved));
+    Image display = toneMap(radiance, {.exposure = options.exposure.value_or(scene.post.exposure)});
+    if (frame > 0) {
+      const double change = colourError(before, display);
+      sum += change;
+      largest = std::max(largest, change);
+    }
+    before = std::move(display);
+    RenderOptions one = options;
+    one.output = numbered(options.output, frame, options.frames);
+    writeRendered(std::move(radiance), one, scene.post, requireImageExtension(one.output), facts);
+  }
+  progress.clear();
+  fmt::print("{}/{} {}x{}: {} frames along {}", scene.name, view.name, shading.width_px,
+             shading.height_px, options.frames, options.path);
+  if (options.frames > 1)
+    fmt::print(", frame-to-frame error {:.4g} on average, {:.4g} at most",
+               sum / (options.frames - 1), largest);
+  fmt::print("\n");
+  return code;
+}
+
+int runRender(const CommandLine& line, const RenderOptions& options) {
+  const CommonOptions& common = line.common;
+  checkRenderOptions(options);
+  const std::string extension = requireImageExtension(options.output);
   const ImageSize size = parseSize(options.size);
-  ShadingOptions shading{.width_px = size.width_px,
-                         .height_px = size.height_px,
-                         .lanes = common.lanes,
-                         .method = parseMethod(options.method),
-                         .glints = !options.no_glints};
+  ShadingOptions shading{
+      .width_px = size.width_px,
+      .height_px = size.height_px,
+      .lanes = common.lanes,
+      .method = parseMethod(options.method),
+      .normal_method = parseChoice<NormalMethod>(options.normal_method, "normal method"),
+      .glints = !options.no_glints};
   if (options.zoom != 0) return runZoom(common, options, shading);
   const Scene scene = openScene(common, options.scene);
   const View& view = chosenView(scene, options.view);
   Device device = openDevice(common);
+  RunInfo run = describeRun(line, device);
+  run.inputs = hashInputs(common, {options.scene});
+  if (options.frames_given)
+    return renderPath(line, options, device, scene, view, shading, factsOf(run));
+  if (options.truth_spp > 0) {
+    Image radiance = renderedTruth(line, device, scene, view, shading, options.truth_spp);
+    const int code = judgePicture(radiance, scene, view);
+    writeRendered(std::move(radiance), options, scene.post, extension, factsOf(run));
+    return code;
+  }
   if (!options.trace.empty()) startTrace();
   FrameRenderer renderer(device, scene, view, shading, common.threads);
 
@@ -130,23 +265,14 @@ int runRender(const CommandLine& line, const RenderOptions& options) {
     shaded = renderer.shade();
     radiance = renderer.readRadiance(&read);
   }
-  if (!options.trace.empty()) writeTrace(options.trace, describeRun(line, device));
-  const std::size_t broken = brokenPixels(radiance);
-  if (coversNothing(radiance))
-    fmt::print(stderr, "note: view {} of {} covers no pixel, so the picture is empty\n", view.name,
-               scene.name);
-  writeRendered(std::move(radiance), options, scene.post, extension);
-  if (!options.aov_output.empty()) writeExr(planesToImage(renderer.planes()), options.aov_output);
+  if (!options.trace.empty()) writeTrace(options.trace, run);
+  const int code = judgePicture(radiance, scene, view);
+  writeRendered(std::move(radiance), options, scene.post, extension, factsOf(run));
+  if (!options.aov_output.empty())
+    writeExr(planesToImage(renderer.planes()), options.aov_output, factsOf(run));
   printTimes(fmt::format("{}/{} {}x{}", scene.name, view.name, size.width_px, size.height_px),
              prepared, shaded, read.readback_ns, device.clock().timer());
-  if (broken > 0) {
-    fmt::print(stderr,
-               "glintmark: {} pixels of the picture are not finite: some value of the scene is too "
-               "large for single precision\n",
-               broken);
-    return kExitCheckFailed;
-  }
-  return kExitDone;
+  return code;
 }
 
 }  // namespace
@@ -165,6 +291,22 @@ void addRenderCommand(Command app, CommandLine& line) {
   command.option("--trace", options->trace, "Chrome/Perfetto trace of host and device")
       .typeName("FILE");
   command.option("--method", options->method, methodHelp(choiceName(kRenderMethod)));
+  command.option("--normal-method", options->normal_method,
+                 fmt::format("{} (default: {})", listOf(namesOf<NormalMethod>(), "or"),
+                             options->normal_method));
+  command
+      .option("--truth", options->truth_spp,
+              "The ground truth by so many samples a pixel, in place of any method")
+      .typeName("N");
+  const CommandOption frames =
+      command.option("--frames", options->frames, "So many pictures along --path, FILE_0000 and on")
+          .typeName("N");
+  command.option("--path", options->path, "orbit, dolly or pan: how the view moves")
+      .typeName("PATH");
+  command
+      .option("--step", options->step,
+              "From picture to picture: degrees, or per cent of the distance (default: 0.1)")
+      .typeName("X");
   command
       .option("--zoom", options->zoom,
               "Strip of pictures over so many octaves, through ever narrower fields of view")
@@ -179,9 +321,13 @@ void addRenderCommand(Command app, CommandLine& line) {
       "  glintmark render sand -o sand.exr --star --size 3840x2160\n"
       "  glintmark render screen_plane -o zoom.png --zoom 20 --size 128x128\n"
       "  glintmark render car -o car.png --aov planes.exr --set material.paint.log_density=7\n"
+      "  glintmark render disk -o truth.exr --truth 256 && glintmark render disk -o lean.exr \\\n"
+      "    --normal-method lean && glintmark diff lean.exr truth.exr -o error.png\n"
+      "  glintmark render snow -o snow.png --frames 24 --path orbit --step 0.5\n"
       "  glintmark render snow -o snow.png --trace trace.json    (open it at ui.perfetto.dev)");
-  command.callback([options, star, &line] {
+  command.callback([options, star, frames, &line] {
     options->star_chosen = star.given();
+    options->frames_given = frames.given();
     line.action = [options, &line] { return runRender(line, *options); };
   });
 }

@@ -110,6 +110,7 @@ class OpenImageIoCodec : public ImageCodec {
       spec.channelnames = image.channel_names;
       spec.attribute("compression", "zip");
     }
+    for (const auto& [name, text] : image.facts) spec.attribute(name, text);
     const void* pixels = is_png ? static_cast<const void*>(image.bytes.data())
                                 : static_cast<const void*>(image.floats.data());
     std::vector<unsigned char> bytes;

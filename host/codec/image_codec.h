@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace glintmark {
@@ -34,12 +35,16 @@ class StoredImage {
   virtual std::string read(int part, int begin, int end, std::span<float> pixels) = 0;
 };
 
+/// What a file says of itself beside its pixels: names and texts.
+using PictureFacts = std::vector<std::pair<std::string, std::string>>;
+
 /// An image to be written.
 struct PixelBlock {
   int width = 0, height = 0;
   std::vector<std::string> channel_names;
   std::span<const float> floats{};         // an EXR of floats, or
   std::span<const unsigned char> bytes{};  // a PNG of sRGB
+  PictureFacts facts{};
 };
 
 /// Pixels [x, x + width) x [y, y + height), from the start of a line of text on its baseline.

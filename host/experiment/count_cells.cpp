@@ -21,4 +21,16 @@ CountedCells countCells(Device& device, const Scene& scene, const View& view,
   return {renderer.readCells(), renderer.cellCounts()};
 }
 
+std::string visitedUnit(GlintMethod method) {
+  switch (method) {
+    case GlintMethod::kDeliotBelcour:
+    case GlintMethod::kDeliotCorrected:
+      return "draws";
+    case GlintMethod::kKemppinen:
+      return "particles";
+    default:
+      return "cells";
+  }
+}
+
 }  // namespace glintmark

@@ -1,5 +1,7 @@
 // Cell counts of one view.
 #pragma once
+#include <string>
+
 #include "host/core/image.h"
 #include "host/frame/frame_renderer.h"
 
@@ -14,5 +16,8 @@ struct CountedCells {
 /// the scene has no glint material, since there would be nothing to count.
 CountedCells countCells(Device& device, const Scene& scene, const View& view,
                         ShadingOptions options, int thread_count);
+
+/// What a method visits: "cells", "draws" or "particles".
+std::string visitedUnit(GlintMethod method);
 
 }  // namespace glintmark

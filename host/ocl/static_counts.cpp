@@ -11,7 +11,7 @@ namespace {
 
 // A PoCL binary is an archive: name length, name, content length, content; lengths in 4 bytes.
 // Local size 0-0-0 marks the version for any local size.
-std::optional<std::string> sharedObject(const std::string& archive, const std::string& kernel) {
+std::optional<std::string> objectInArchive(const std::string& archive, const std::string& kernel) {
   const std::string name = fmt::format("/{0}/0-0-0/{0}.so", kernel);
   const std::size_t at = archive.find(name);
   if (at == std::string::npos) return std::nullopt;
@@ -38,6 +38,10 @@ const LoopCounts* findCellLoop(const std::vector<LoopCounts>& loops) {
 
 }  // namespace
 
+std::optional<std::string> sharedObject(const Program& program, const std::string& kernel_name) {
+  return objectInArchive(program.binary(), kernel_name);
+}
+
 StaticCounts countInstructions(const std::vector<Instruction>& instructions) {
   StaticCounts counts;
   counts.kernel_instructions = instructions.size();
@@ -50,7 +54,7 @@ StaticCounts countInstructions(const std::vector<Instruction>& instructions) {
 }
 
 std::optional<StaticCounts> staticCounts(const Program& program, const std::string& kernel_name) {
-  const std::optional<std::string> object = sharedObject(program.binary(), kernel_name);
+  const std::optional<std::string> object = sharedObject(program, kernel_name);
   if (!object) return std::nullopt;
   const std::optional<FunctionCode> code =
       findFunction(*object, fmt::format("_pocl_kernel_{}_workgroup", kernel_name).c_str());

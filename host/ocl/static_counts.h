@@ -23,6 +23,10 @@ struct StaticCounts {
 /// of the instructions.
 std::optional<StaticCounts> staticCounts(const Program& program, const std::string& kernel_name);
 
+/// PoCL's version for any local size of a kernel as the bytes of an ELF shared object, which
+/// disassemblers read; nothing if the device is not PoCL.
+std::optional<std::string> sharedObject(const Program& program, const std::string& kernel_name);
+
 /// Counts of one function's instructions.
 StaticCounts countInstructions(const std::vector<Instruction>& instructions);
 

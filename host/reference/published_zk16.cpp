@@ -12,13 +12,8 @@ namespace {
 constexpr int kMostSteps = 18;
 constexpr double kAnisotropy = 16, kOffset = 100, kDynamicRange = 50000;
 
-// In single precision, as the shader says: what is lost there makes up the hash.
 double sineHash(float n) {
-  const float before = 3.14f * std::floor(n / 3.14f);
-  const float rest = n - before;
-  const auto sine = static_cast<float>(std::sin(static_cast<double>(rest)));
-  const float value = sine * 753.5453123f;
-  return value - std::floor(value);
+  return publishedHash(n);
 }
 
 // Of numbers between -edge and edge: the normal quantile over the root of 2, by bisection.
@@ -185,6 +180,15 @@ double gridShare(const Walk& w, const Glints& glints, const CellLight& light, Ri
 }
 
 }  // namespace
+
+// In single precision, as the shader says: what is lost there makes up the hash.
+double publishedHash(float n) {
+  const float before = 3.14f * std::floor(n / 3.14f);
+  const float rest = n - before;
+  const auto sine = static_cast<float>(std::sin(static_cast<double>(rest)));
+  const float value = sine * 753.5453123f;
+  return value - std::floor(value);
+}
 
 RivalRatio publishedZk16(const PixelFootprint& footprint, const Glints& glints,
                          const RivalLight& light) {

@@ -32,6 +32,8 @@ RivalRatio kemppinen(const PixelFootprint& footprint, const Glints& glints,
 
 /// The shader that [ZK16]'s authors published, with its defects but for its fireflies: sums of
 /// floats make those, and these are doubles.
+/// Its hash of a number, [0, 1).
+double publishedHash(float n);
 RivalRatio publishedZk16(const PixelFootprint& footprint, const Glints& glints,
                          const RivalLight& light);
 

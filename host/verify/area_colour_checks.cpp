@@ -120,6 +120,29 @@ Finding albedos(const CheckContext& context, bool clipless) {
   return finding;
 }
 
+// The same of the whole lobe: what Schlick's term leaves of it, which the horizon's bend does not
+// touch.
+Finding wholeLobes(const CheckContext& context) {
+  const AreaLight light =
+      polygonLight(rectangleVertices({0, 0, 1}, {0, 0, -1}, {0, 1, 0}, {2e5, 2e5}));
+  AreaLightProbe probe = colouredProbe(context, light, false), white = probe;
+  probe.clipless = white.clipless = true;
+  white.material.surface.f0 = {1, 1, 1, 0};
+  Finding finding(kTableAlbedo);
+  for (const double alpha : {0.1, 0.3, 0.7})
+    for (const double cosine : {1.0, 0.6, 0.3, 0.15}) {
+      HandMadePoint point;
+      point.alpha = alpha;
+      point.view = {std::sqrt(1 - cosine * cosine), 0, cosine};
+      const glm::vec3 got = lightPoints(context.bench, probe, {point})[0] /
+                            lightPoints(context.bench, white, {point})[0];
+      for (int c = 0; c < 3; ++c)
+        finding.add(std::abs(got[c] - schlickAlbedo(alpha, cosine, kAreaF0[c]) /
+                                          schlickAlbedo(alpha, cosine, 1)));
+    }
+  return finding;
+}
+
 // Method exact: alpha_me is the roughness whose lobe has that mean length ([TAO21] Eq. 4), and both
 // scales together are the lobe nearest to their convolution (Eq. 6).
 Finding exactMeso(const CheckContext& context) {
@@ -156,6 +179,7 @@ std::vector<Check> areaColourChecks() {
            [](const CheckContext& context) { return albedos(context, false); }},
           {"area_light/schlick_albedo_clipless", "error of the albedo",
            [](const CheckContext& context) { return albedos(context, true); }},
+          {"area_light/schlick_of_whole_lobes", "error of its share", wholeLobes},
           {"area_light/exact_mean_normal", "error in units of its bound", exactMeso}};
 }
 

@@ -20,14 +20,25 @@ namespace {
 constexpr int kSize_px = 24;
 constexpr double kUvPerUnit = 2000;  // hundreds of maps under every pixel
 
-// Two by two texels of the given slopes.
+// A square of texels of the given slopes: one, four or sixteen.
 NormalMap mapOfSlopes(const std::vector<glm::vec2>& slopes) {
   NormalMap map;
   map.name = "slopes";
-  map.width_px = map.height_px = 2;
-  for (std::size_t i = 0; i < 4; ++i)
+  map.width_px = map.height_px = slopes.size() > 4 ? 4 : 2;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(map.width_px * map.height_px); ++i)
     map.normals.push_back(glm::normalize(glm::vec3(slopes[i % slopes.size()], 1)));
   return map;
+}
+
+// Four clusters of four each, which four lobes of some variance are.
+std::vector<glm::vec2> clusteredSlopes() {
+  std::vector<glm::vec2> slopes;
+  for (const glm::vec2& centre :
+       {glm::vec2(0.35f, 0.3f), {-0.4f, 0.25f}, {0.3f, -0.35f}, {-0.3f, -0.3f}})
+    for (const glm::vec2& off :
+         {glm::vec2(0.08f, 0.08f), {-0.08f, 0.08f}, {0.08f, -0.08f}, {-0.08f, -0.08f}})
+      slopes.push_back(centre + off);
+  return slopes;
 }
 
 Scene floorOf(const NormalMap& map) {
@@ -81,7 +92,9 @@ const std::vector<glm::vec2> kApart = {
 const std::vector<glm::vec2> kDiagonal = {
     {0.22f, 0.02f}, {0.08f, -0.12f}, {0.18f, -0.02f}, {0.12f, -0.08f}};
 const std::vector<glm::vec2> kSquare = {{0.1f, 0.1f}, {-0.1f, 0.1f}, {0.1f, -0.1f}, {-0.1f, -0.1f}};
+const std::vector<glm::vec2> kAlongU = {{0.2f, 0}, {0.06f, 0}, {0.17f, 0.01f}, {0.09f, -0.01f}};
 const std::vector<glm::vec2> kTilted = {{0.2f, -0.1f}};
+const std::vector<glm::vec2> kClusters = clusteredSlopes();
 
 const std::vector<MethodCase>& methodCases() {
   static const std::vector<MethodCase> cases = {
@@ -92,11 +105,13 @@ const std::vector<MethodCase>& methodCases() {
       {"toksvig_square", NormalMethod::kToksvig, kSquare, false, kGaussianOfNormals},
       {"lean_tilted", NormalMethod::kLean, kTilted, false, kTiltedLobe},
       {"lean_diagonal", NormalMethod::kLean, kDiagonal, false, kGaussianOfNormals},
+      {"lean_along_u", NormalMethod::kLean, kAlongU, false, kGaussianOfNormals},
       {"fournier_tilted", NormalMethod::kFournier, kTilted, false, kPhongPeaks},
       {"fournier_apart", NormalMethod::kFournier, kApart, false, kPhongPeaks},
       {"gmm_tilted", NormalMethod::kGmm, kTilted, false, kTiltedLobe},
       {"gmm_apart", NormalMethod::kGmm, kApart, false, kTiltedLobe},
-      {"gmm_half", NormalMethod::kGmm, kApart, false, kTiltedLobe, true}};
+      {"gmm_clusters", NormalMethod::kGmm, kClusters, false, kGaussianOfNormals},
+      {"gmm_half", NormalMethod::kGmm, kClusters, false, kGaussianOfNormals, true}};
   return cases;
 }
 
@@ -122,12 +137,31 @@ Finding methodIsTheMean(const CheckContext& context, const MethodCase& c) {
         const glm::dvec3 view = inFloor(-glm::normalize(renderer.camera().ray(x, y)));
         glm::dvec3 want(0);
         for (const glm::vec3& n : map.normals)
-          want += 0.25 * shadeNormal(scene, glm::dvec3(n), view);
+          want += shadeNormal(scene, glm::dvec3(n), view) / static_cast<double>(map.normals.size());
         if (c.of_mean) want = shadeNormal(scene, glm::normalize(mean), view);
         for (std::size_t k = 0; k < 3; ++k)
           finding.add(std::abs(image.at(x, y)[k] / want[static_cast<int>(k)] - 1));
       }
   }
+  return finding;
+}
+
+// Lobes stored as halves are those stored as floats, to their 11 bits.
+Finding halvesAreFloats(const CheckContext& context) {
+  const Scene scene = floorOf(mapOfSlopes(kClusters));
+  const auto textures = std::make_shared<NormalTextures>(context.bench.device);
+  Image images[2];
+  for (const bool half : {false, true}) {
+    ShadingOptions options{.width_px = kSize_px, .height_px = kSize_px, .lanes = context.lanes};
+    options.half_texels = half;
+    FrameRenderer renderer(context.bench.device, scene, lookingDown(50, 3), options, 1, textures);
+    renderer.prepare();
+    renderer.shade();
+    images[half ? 1 : 0] = renderer.readRadiance();
+  }
+  Finding finding(2e-3);
+  for (std::size_t i = 0; i < images[0].pixels.size(); ++i)
+    finding.add(std::abs(images[1].pixels[i] / images[0].pixels[i] - 1));
   return finding;
 }
 
@@ -138,6 +172,7 @@ std::vector<Check> normalMethodChecks() {
   for (const MethodCase& c : methodCases())
     checks.push_back({std::string("normal_method/") + c.name, "error of the mean over normals",
                       [&c](const CheckContext& context) { return methodIsTheMean(context, c); }});
+  checks.push_back({"normal_method/halves", "relative difference from floats", halvesAreFloats});
   return checks;
 }
 

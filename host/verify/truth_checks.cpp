@@ -112,7 +112,7 @@ Finding coneTruth(const CheckContext& context) {
   Finding finding(1);
   for (const double z : {-0.6, 0.6}) {
     Scene scene = truthFloor();
-    scene.lights = {coneOver({0.1, 0.8, z}, 12)};
+    scene.lights = {coneOver({0.6, 0.7, z}, 12)};
     compare(context, finding, scene, lookingDown(40), kPixelNoise,
             [&](const Camera& camera, double x, double y) {
               return shadeCones(scene, {0, 0, 1}, onFloor(-glm::normalize(camera.ray(x, y))),

@@ -169,11 +169,12 @@ std::string glintsTableText(std::span<const Record> records) {
   }
   return table.toString() +
          "\n1:a: sides of a footprint; n: microdetails that reflect in it; x3: of each of 3 "
-         "lights. ns: "
-         "least of all\nrepetitions. visited: cells, draws (deliot) or particles (kemppinen). W1, "
-         "variance (over the\ntruth's), mean: against placed microdetails. /best: W1 over the "
-         "least "
-         "of methods as fast.\n";
+         "lights.\n"
+         "ns: least of all repetitions. visited: cells, draws (deliot) or particles (kemppinen). "
+         "W1,\n"
+         "variance (over the truth's), mean: against placed microdetails, where one light is. "
+         "/best:\n"
+         "W1 over the least of methods that are as fast.\n";
 }
 
 std::string glintsClaimsText(std::span<const Record> records) {

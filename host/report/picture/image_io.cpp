@@ -1,5 +1,6 @@
 #include "host/report/picture/image_io.h"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +10,8 @@
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
 #include "host/report/picture/load_codec.h"
+#include "host/report/picture/picture_facts.h"
+#include "host/report/record/run_info.h"
 
 namespace glintmark {
 namespace {
@@ -43,7 +46,10 @@ void requireConsistent(const Image& image, const std::filesystem::path& path) {
   }
 }
 
-void encodeFile(const PixelBlock& block, const std::filesystem::path& path) {
+void encodeFile(PixelBlock block, const std::filesystem::path& path) {
+  // OpenImageIO dates an EXR with now, unless it is told otherwise.
+  if (const std::optional<std::time_t> date = sourceDate())
+    block.facts.emplace_back("DateTime", fmt::format("{:%Y:%m:%d %H:%M:%S}", fmt::gmtime(*date)));
   std::string fault;
   const std::vector<unsigned char> bytes = imageCodec().encode(block, fault);
   if (bytes.empty()) throw Error(fmt::format("cannot write {}: {}", path.string(), fault));
@@ -61,15 +67,24 @@ std::string requireImageExtension(const std::filesystem::path& path) {
 }
 
 void writeExr(const Image& image, const std::filesystem::path& path) {
+  writeExr(image, path, {});
+}
+
+void writePng(const Image& image, const std::filesystem::path& path) {
+  writePng(image, path, {});
+}
+
+void writeExr(const Image& image, const std::filesystem::path& path, const PictureFacts& facts) {
   requireConsistent(image, path);
   encodeFile({.width = image.width,
               .height = image.height,
               .channel_names = channelNames(image, path),
-              .floats = image.pixels},
+              .floats = image.pixels,
+              .facts = facts},
              path);
 }
 
-void writePng(const Image& image, const std::filesystem::path& path) {
+void writePng(const Image& image, const std::filesystem::path& path, const PictureFacts& facts) {
   requireConsistent(image, path);
   if (image.channels == 2 || image.channels > 4) {
     throw Error(fmt::format("cannot write {}: a PNG holds 1, 3 or 4 channels, not {}",
@@ -84,7 +99,8 @@ void writePng(const Image& image, const std::filesystem::path& path) {
   encodeFile({.width = image.width,
               .height = image.height,
               .channel_names = channelNames(image, path),
-              .bytes = bytes},
+              .bytes = bytes,
+              .facts = facts},
              path);
 }
 

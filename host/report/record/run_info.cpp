@@ -3,10 +3,13 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <charconv>
+#include <cstdlib>
 #include <ctime>
 #include <fstream>
 
 #include "glintmark_git_version.h"
+#include "host/core/error.h"
 #include "host/core/free_memory.h"
 #include "host/report/record/machine.h"
 
@@ -28,13 +31,27 @@ std::string procValue(const char* file, const std::string& key) {
 
 }  // namespace
 
+std::optional<std::time_t> sourceDate() {
+  const char* fixed = std::getenv("SOURCE_DATE_EPOCH");
+  if (fixed == nullptr || *fixed == '\0') return std::nullopt;
+  const std::string_view text = fixed;
+  std::time_t seconds = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seconds);
+  constexpr std::time_t kMostSeconds = 253402300799;  // the end of year 9999
+  if (error != std::errc() || end != text.data() + text.size() || seconds < 0 ||
+      seconds > kMostSeconds)
+    throw Error(fmt::format("SOURCE_DATE_EPOCH is '{}', expected seconds since 1970", text));
+  return seconds;
+}
+
 std::string gitVersion() {
   return GLINTMARK_GIT_VERSION;
 }
 
 RunInfo describeHost(std::span<const char* const> command_line) {
   RunInfo run;
-  run.date = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+  run.date =
+      fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(sourceDate().value_or(std::time(nullptr))));
   run.git = gitVersion();
   for (const char* word : command_line) {
     if (!run.command.empty()) run.command += ' ';
