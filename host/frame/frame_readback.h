@@ -11,7 +11,7 @@ namespace glintmark {
 struct CellCounts {
   std::uint32_t min = 0, max = 0;
   double mean = 0;
-  double paid_mean = 0;  // cells that lanes worked through side by side, idle ones included
+  double paid_mean = 0;        // cells that lanes worked through side by side, idle ones included
   std::size_t glint_px = 0;    // pixels that ran the glint loop
   std::size_t guard_hits = 0;  // pixels whose walk a limit cut short
 };

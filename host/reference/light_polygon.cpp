@@ -69,19 +69,19 @@ double lobeRadius(Ndf ndf, double u) {
   return std::sqrt(ndf == Ndf::kGgx ? u / (1 - u) : -std::log(1 - u));
 }
 
-struct LobePart {
+struct PolygonPart {
   double mass = 0;
   glm::dvec2 mean{0};  // slope
 };
 
 // Of a lobe of roughness `alpha` around slope `centre`, what mirrors the light. Lights narrower
 // than the lobe are resolved by their own directions, wider ones by the lobe's slopes.
-LobePart partWithin(std::span<const glm::dvec3> light, const std::vector<SlopeArea>& slopes,
-                    const glm::dvec3& view, Ndf ndf, const glm::dvec2& alpha,
-                    const glm::dvec2& centre, int samples) {
+PolygonPart partWithin(std::span<const glm::dvec3> light, const std::vector<SlopeArea>& slopes,
+                       const glm::dvec3& view, Ndf ndf, const glm::dvec2& alpha,
+                       const glm::dvec2& centre, int samples) {
   constexpr double kNarrowArea = 10;  // in units of alpha^2
   double area = 0;
-  LobePart part;
+  PolygonPart part;
   for (const SlopeArea& one : slopes) {
     const double own = one.area / (alpha.x * alpha.y);
     const double mass = own * lobeDensity(ndf, (one.slope - centre) / alpha);
@@ -113,13 +113,13 @@ double polygonProbability(std::span<const glm::dvec3> vertices, const glm::dvec3
   const std::vector<glm::dvec3> light = clipPolygon(vertices, {0, 0, 1});
   if (light.size() < 3) return 0;
   const std::vector<SlopeArea> slopes = lightSlopes(light, view, samples);
-  const LobePart all =
+  const PolygonPart all =
       partWithin(light, slopes, view, lobes.ndf, glm::dvec2(lobes.alpha_g), glm::dvec2(0), samples);
   if (all.mass <= 0) return 0;
   glm::dvec2 centre = all.mean;
   double best = 0;
   for (int step = 0; step < 12; ++step) {  // mean shift
-    const LobePart part =
+    const PolygonPart part =
         partWithin(light, slopes, view, Ndf::kBeckmann, lobes.alpha_l, centre, samples);
     best = std::max(best, part.mass);
     if (part.mass <= 0) break;

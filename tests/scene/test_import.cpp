@@ -348,8 +348,9 @@ TEST(StandInModel, Loads) {
   request.mesh_file = folder.write("sheet.obj", sheetText());
   const Scene scene = loadScene(request);
   expectWhole(scene, kSheetTriangles);
-  EXPECT_TRUE(std::ranges::any_of(
-      scene.notes, [](const std::string& n) { return n.find("have no uvs") != std::string::npos; }));
+  EXPECT_TRUE(std::ranges::any_of(scene.notes, [](const std::string& n) {
+    return n.find("have no uvs") != std::string::npos;
+  }));
 }
 
 class RealModels : public testing::TestWithParam<RealModel> {};
