@@ -53,7 +53,7 @@ TEST(Bench, StopsWhenKnownOrWhenTimeIsOver) {
     EXPECT_EQ(record.config.at("noise"), "0.99");
     EXPECT_EQ(record.config.at("warmup"), "2");
     if (record.metric == "shading_event_ms") {
-      EXPECT_EQ(record.value.n, 3u);
+      EXPECT_GE(record.value.n, 3u);
     }
   }
   const ProcessResult late = runGlintmark(benchArguments(folder, {"--max-time", "1e-6"}));

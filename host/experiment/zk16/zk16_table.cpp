@@ -48,10 +48,10 @@ const TableSpec& zk16Spec() {
             "over pixels of glint materials that some light reaches, by a separate counting build, "
             "never while timing"},
            {"cells_mean", "cells", "mean cells"},
+           {"cells_max", "cells", "most cells"},
            {"cells_paid_mean", "cells", "mean cells paid for",
             "cells that lanes work through side by side, those of idle lanes and of steps rounded "
             "up included, over the same pixels"},
-           {"cells_max", "cells", "most cells"},
            {"guard_hits", "pixels", "pixels cut short",
             "pixels whose walk the limit of 64 cells cut short"},
            {"raster_ms", "ms", "rasterizing",
