@@ -44,6 +44,7 @@ constexpr DrawCase kDrawCases[] = {
     {"zk16_ka4", kZk16, {.3f, .3f}, {.03f, .03f}, 1e7f, 0, false, 4, {1e-4, 1e-2, 64}},
     {"zk16_ka1", kZk16, {.3f, .3f}, {.03f, .03f}, 1e7f, 0, false, 1, {1e-4, 1e-2, 64}},
     {"zk16_ka64", kZk16, {.3f, .3f}, {.03f, .03f}, 1e7f, 0, false, 64, {1e-4, 1e-2, 100}},
+    {"zk16_coarse", kZk16, {.3f, .3f}, {.2f, .2f}, 1e-3f, 0, false, 16, kUsual},
     {"zk16_wide_lobe", kZk16, {.3f, .3f}, {.299f, .299f}, 1e6f, 1, false, 16, kUsual},
     {"distributed_sparse", kDistributed, {.3f, .3f}, {.03f, .03f}, 1e6f, 0, false, 16, kUsual},
     {"distributed_dense", kDistributed, {.3f, .3f}, {.03f, .03f}, 1e9f, 0, false, 16, kUsual},
