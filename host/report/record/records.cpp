@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
@@ -221,19 +222,25 @@ LogLine parseRecordLine(const std::string& line, const std::string& source) {
 }
 
 std::string toCsv(const std::vector<Record>& records) {
-  std::string csv =
-      "table,case,metric,unit,median,min,p95,stddev,n,paper,valid,note,config,timer\n";
+  std::set<std::string> keys;
+  for (const Record& record : records)
+    for (const auto& [key, value] : record.config) keys.insert(key);
+  std::string csv = "table,case,metric,unit,median,min,p95,stddev,n,paper,valid,note,timer";
+  for (const std::string& key : keys) csv += fmt::format(",{}", csvField("config." + key));
+  csv += "\n";
   for (const Record& record : records) {
-    std::string config;
-    for (const auto& [key, value] : record.config) {
-      config += fmt::format("{}{}={}", config.empty() ? "" : ";", key, value);
-    }
     const Summary& v = record.value;
-    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csvField(record.table),
+    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}", csvField(record.table),
                        csvField(record.case_), csvField(record.metric), csvField(record.unit),
                        v.median, v.min, v.p95, v.stddev, v.n,
                        record.paper ? fmt::format("{}", *record.paper) : "", record.valid,
-                       csvField(record.note), csvField(config), csvField(record.timer));
+                       csvField(record.note), csvField(record.timer));
+    for (const std::string& key : keys) {
+      const auto found = record.config.find(key);
+      csv += ',';
+      if (found != record.config.end()) csv += csvField(found->second);
+    }
+    csv += "\n";
   }
   return csv;
 }

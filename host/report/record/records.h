@@ -38,7 +38,7 @@ struct LogLine {
 };
 LogLine parseRecordLine(const std::string& line, const std::string& source);
 
-/// CSV of RFC 4180 with a header row; config as `key=value` pairs joined by semicolons. Numbers
+/// CSV of RFC 4180 with a header row; a column `config.KEY` for each key that a record has. Numbers
 /// have the digits that give the same double back.
 std::string toCsv(const std::vector<Record>& records);
 
