@@ -228,7 +228,7 @@ std::vector<Check> rivalChecks() {
                                      std::pair("kemppinen", GlintMethod::kKemppinen),
                                      std::pair("published_zk16", GlintMethod::kPublishedZk16)})
     checks.push_back(
-        {fmt::format("rival/{}_motion", name), "change per hundredth of a pixel, of the contrast",
+        {fmt::format("rival/{}_motion", name), "change per hundredth of a pixel, per contrast",
          [method = method](const CheckContext& context) { return rivalMotion(context, method); }});
   return checks;
 }
