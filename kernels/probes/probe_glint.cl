@@ -1,5 +1,6 @@
 // Runs single functions of the kernels over arrays, so that each can be compared with its
 // definition.
+#include "glint/byte_sum.clh"
 #include "glint/glint.clh"
 #include "glint/hash.clh"
 

@@ -84,7 +84,7 @@ std::vector<std::string> chosenCases(std::vector<std::string> cases,
 
 std::string headText(const BenchRun& run) {
   return fmt::format(
-      "What accuracy costs, at {}, {} lanes, {:.0f} GFLOP/s on {:.60}\n"
+      "What accuracy costs, at {}, {} lanes, {:.0f} GFLOP/s\non {:.90}\n"
       "*: the default; s.e.: the truth's own standard error; optimal: no other setting is both "
       "faster\n"
       "and closer, where times and errors within {:.0f} % and errors below s.e. count as equal; "

@@ -66,7 +66,7 @@ void measure(BenchRun& run) {
 std::string text(const BenchRun& run) {
   const RunInfo& info = run.info();
   const std::vector<Record> records = run.recordsOf(effectsSpec().name);
-  return fmt::format("Effects of scene {}, view {}, at {}, {} lanes, on {:.50}\n\n", kScene, kView,
+  return fmt::format("Effects of scene {}, view {}, at {}, {} lanes\non {:.90}\n\n", kScene, kView,
                      run.options().size, info.width, info.device) +
          effectsTableText(records) + invalidText(records);
 }
