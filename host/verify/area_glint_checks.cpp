@@ -20,6 +20,7 @@
 #include "host/reference/light_cone.h"
 #include "host/reference/light_polygon.h"
 #include "host/reference/polygon_light.h"
+#include "host/verify/check_frames.h"
 #include "host/verify/check_groups.h"
 
 namespace glintmark {
@@ -182,13 +183,6 @@ std::vector<DetailRatios> detailRatios(const CheckContext& context, reference::N
   return ratios;
 }
 
-// Adds what nine of ten errors stay below.
-void addMostErrors(Finding& finding, std::vector<double> errors, std::size_t least) {
-  std::ranges::sort(errors);
-  finding.require(errors.size() >= least, "too few lights mirror enough");
-  if (!errors.empty()) finding.add(errors[errors.size() * 9 / 10]);
-}
-
 // What one reflecting microdetail sends, against brute force at any view.
 Finding brightness(const CheckContext& context, reference::Ndf ndf) {
   Finding finding(kPolygonBrightness);
@@ -199,7 +193,7 @@ Finding brightness(const CheckContext& context, reference::Ndf ndf) {
         fmt::format("a microdetail is {:.2g} times as bright", ratios.brightness));
     errors.push_back(std::abs(ratios.brightness - 1));
   }
-  addMostErrors(finding, errors, 100);
+  finding.addMost(errors, 100);
   return finding;
 }
 
@@ -209,7 +203,7 @@ Finding probability(const CheckContext& context, reference::Ndf ndf) {
   std::vector<double> errors;
   for (const DetailRatios& ratios : detailRatios(context, ndf))
     if (ratios.view_deg >= 30) errors.push_back(std::abs(ratios.probability - 1));
-  addMostErrors(finding, errors, 60);
+  finding.addMost(errors, 60);
   return finding;
 }
 
@@ -238,7 +232,7 @@ Finding tinyLight(const CheckContext& context) {
           std::abs(probed[i].reflected / probed[i].probability * share / reflected - 1));
     }
   }
-  addMostErrors(finding, errors, 15);
+  finding.addMost(errors, 15);
   return finding;
 }
 
@@ -267,31 +261,7 @@ Finding energy(const CheckContext& context, const FloorLight& kind) {
   AreaLight light = roundLight(kind.vertices, kind.size, glm::normalize(glm::dvec3(0.1, -1, 0.6)));
   for (glm::dvec3& v : light.vertices) v += glm::dvec3(0.1, 1.2, -1);
   light.radiance = {3, 3, 3};
-  const Scene scene = litFloor(light, kind.ggx);
-  ShadingOptions options{.width_px = 512, .height_px = 512, .lanes = context.lanes};
-  const auto render = [&] {
-    FrameRenderer renderer(context.bench.device, scene, lookingDown(50), options, 1);
-    renderer.prepare();
-    renderer.shade();
-    return renderer.readRadiance();
-  };
-  const Image glints = render();
-  options.glints = false;
-  const Image smooth = render();
-  double sum = 0, wanted = 0, squares = 0, different = 0;
-  for (std::size_t i = 0; i < smooth.pixels.size(); i += 4) {
-    const double d = glints.pixels[i] - smooth.pixels[i];
-    sum += d;
-    squares += d * d;
-    wanted += smooth.pixels[i];
-    different += std::abs(d);
-  }
-  Finding finding(kEnergyTolerance);
-  finding.add(std::abs(sum) / wanted);
-  finding.require(std::sqrt(squares) / wanted < kEnergyTolerance / 4,
-                  "too few pixels to tell the mean");
-  finding.require(different > 0.05 * wanted, "glints do not differ from the smooth lobe");
-  return finding;
+  return frameEnergy(context, litFloor(light, kind.ggx), lookingDown(50), 0.05);
 }
 
 }  // namespace

@@ -20,6 +20,12 @@ void Finding::add(double error) {
   worst_ = std::max(worst_, std::isnan(error) ? std::numeric_limits<double>::infinity() : error);
 }
 
+void Finding::addMost(std::vector<double> errors, std::size_t least) {
+  require(errors.size() >= least, "too few lights mirror enough");
+  std::ranges::sort(errors);
+  if (!errors.empty()) add(errors[errors.size() * 9 / 10]);
+}
+
 void Finding::require(bool holds, const std::string& what) {
   if (!holds && violated_.empty()) violated_ = what;
 }

@@ -1,6 +1,7 @@
 // Properties of the kernels that `glintmark verify` and the tests check, on one device and at one
 // lane count.
 #pragma once
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <vector>
@@ -19,6 +20,9 @@ class Finding {
 
   /// Takes one error into account; what is not a number counts as infinite.
   void add(double error);
+  /// Takes into account what nine of ten errors stay below, each of a light that mirrors enough to
+  /// be judged; fewer than `least` of them are a failure.
+  void addMost(std::vector<double> errors, std::size_t least);
   /// A condition beside the errors. The first that does not hold is kept as the reason of failure.
   void require(bool holds, const std::string& what);
 

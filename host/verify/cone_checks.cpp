@@ -166,8 +166,7 @@ Finding probability(const CheckContext& context, ConeKind kind) {
         if (whole) errors.push_back(std::abs(ratio - 1));
       }
     }
-  std::sort(errors.begin(), errors.end());
-  if (!errors.empty()) finding.add(errors[errors.size() * 9 / 10]);
+  finding.addMost(errors, 0);
   return finding;
 }
 

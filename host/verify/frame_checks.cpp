@@ -7,18 +7,11 @@
 #include "host/frame/frame_renderer.h"
 #include "host/harness/pixel_harness.h"
 #include "host/harness/small_scenes.h"
+#include "host/verify/check_frames.h"
 #include "host/verify/check_groups.h"
 
 namespace glintmark {
 namespace {
-
-Image render(const CheckContext& context, const Scene& scene, const View& view,
-             const ShadingOptions& options, std::shared_ptr<NormalTextures> textures = nullptr) {
-  FrameRenderer renderer(context.bench.device, scene, view, options, 1, std::move(textures));
-  renderer.prepare();
-  renderer.shade();
-  return renderer.readRadiance();
-}
 
 double insaneValues(const Image& image) {
   return static_cast<double>(std::ranges::count_if(
@@ -30,8 +23,8 @@ Finding emptyFrame(const CheckContext& context) {
   Scene scene = floorScene();
   scene.mesh = TriangleMesh{};
   addFloor(scene, 100, 101, 0);
-  const Image image = render(context, scene, lookingDown(90),
-                             {.width_px = 64, .height_px = 48, .lanes = context.lanes});
+  const Image image = checkFrame(context, scene, lookingDown(90),
+                                 {.width_px = 64, .height_px = 48, .lanes = context.lanes});
   Finding finding(0);
   finding.require(image.width == 64 && image.height == 48, "the picture has another size");
   for (const float value : image.pixels) finding.add(std::abs(value));
@@ -41,10 +34,10 @@ Finding emptyFrame(const CheckContext& context) {
 // One pixel of glints is what the same pixel is in a frame of one row.
 Finding onePixel(const CheckContext& context) {
   const Scene scene = floorScene();
-  const Image image = render(context, scene, lookingDown(45),
-                             {.width_px = 1, .height_px = 1, .lanes = context.lanes});
+  const Image image = checkFrame(context, scene, lookingDown(45),
+                                 {.width_px = 1, .height_px = 1, .lanes = context.lanes});
   const Image narrow =
-      render(context, scene, lookingDown(45), {.width_px = 1, .height_px = 1, .lanes = 1});
+      checkFrame(context, scene, lookingDown(45), {.width_px = 1, .height_px = 1, .lanes = 1});
   Finding finding(0);
   finding.add(insaneValues(image));
   finding.require(image.pixels.size() == 4 && image.pixels[3] == 1, "the pixel is not covered");
@@ -84,9 +77,9 @@ Finding mappedNormals(const CheckContext& context, NormalMethod method) {
       const View view = lookingDown(8, distance);
       ShadingOptions options{.width_px = 48, .height_px = 48, .lanes = context.lanes};
       options.normal_method = method;
-      const Image wide = render(context, scene, view, options, textures);
+      const Image wide = checkFrame(context, scene, view, options, textures);
       options.lanes = 1;
-      const Image one = render(context, scene, view, options, textures);
+      const Image one = checkFrame(context, scene, view, options, textures);
       bad += insaneValues(wide);
       for (std::size_t i = 0; i < wide.pixels.size(); ++i)
         different += wide.pixels[i] != one.pixels[i];

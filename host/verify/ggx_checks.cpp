@@ -17,6 +17,7 @@
 #include "host/harness/tolerances.h"
 #include "host/reference/light_polygon.h"
 #include "host/reference/polygon_light.h"
+#include "host/verify/check_frames.h"
 #include "host/verify/check_groups.h"
 
 namespace glintmark {
@@ -164,9 +165,7 @@ Finding ggxProbability(const CheckContext& context, double half_deg) {
       errors.push_back(std::abs(ratio - 1));
     }
   }
-  std::ranges::sort(errors);
-  finding.require(errors.size() > 30, "too few lights mirror enough");
-  if (!errors.empty()) finding.add(errors[errors.size() * 9 / 10]);
+  finding.addMost(errors, 31);
   return finding;
 }
 
@@ -175,29 +174,7 @@ Finding ggxEnergy(const CheckContext& context, double half_deg) {
   Scene scene = floorScene();
   scene.materials[0].ggx = true;
   scene.lights[0].direction.w = static_cast<float>(half_deg * kDegree);
-  ShadingOptions options{.width_px = 512, .height_px = 512, .lanes = context.lanes};
-  const auto render = [&] {
-    FrameRenderer renderer(context.bench.device, scene, lookingDown(55), options, 1);
-    renderer.prepare();
-    renderer.shade();
-    return renderer.readRadiance();
-  };
-  const Image glints = render();
-  options.glints = false;
-  const Image smooth = render();
-  double sum = 0, wanted = 0, squares = 0;
-  for (std::size_t i = 0; i < smooth.pixels.size(); i += 4) {
-    const double d = glints.pixels[i] - smooth.pixels[i];
-    sum += d;
-    squares += d * d;
-    wanted += smooth.pixels[i];
-  }
-  Finding finding(kEnergyTolerance);
-  finding.add(std::abs(sum) / wanted);
-  finding.require(std::sqrt(squares) / wanted < kEnergyTolerance / 4,
-                  "too few pixels to tell the mean");
-  finding.require(squares > 0, "there are no glints");
-  return finding;
+  return frameEnergy(context, scene, lookingDown(55), 0);
 }
 
 }  // namespace

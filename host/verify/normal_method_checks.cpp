@@ -12,6 +12,7 @@
 #include "host/harness/small_scenes.h"
 #include "host/harness/tolerances.h"
 #include "host/reference/beckmann.h"
+#include "host/verify/check_frames.h"
 #include "host/verify/check_groups.h"
 
 namespace glintmark {
@@ -154,10 +155,7 @@ Finding halvesAreFloats(const CheckContext& context) {
   for (const bool half : {false, true}) {
     ShadingOptions options{.width_px = kSize_px, .height_px = kSize_px, .lanes = context.lanes};
     options.half_texels = half;
-    FrameRenderer renderer(context.bench.device, scene, lookingDown(50, 3), options, 1, textures);
-    renderer.prepare();
-    renderer.shade();
-    images[half ? 1 : 0] = renderer.readRadiance();
+    images[half ? 1 : 0] = checkFrame(context, scene, lookingDown(50, 3), options, textures);
   }
   Finding finding(2e-3);
   for (std::size_t i = 0; i < images[0].pixels.size(); ++i)
