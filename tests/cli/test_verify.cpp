@@ -74,7 +74,8 @@ TEST(Verify, CatchesAChangedHash) {
 
 TEST(Verify, CatchesAByteSumWithAWrongMean) {
   const TempFolder folder;
-  const fs::path kernels = changedKernels(folder, "glint/hash.clh", "510.0f", "511.0f");
+  const fs::path kernels =
+      changedKernels(folder, "glint/byte_sum.clh", "MEAN 510.0f", "MEAN 511.0f");
   const ProcessResult result = verify("^seeds/random_numbers$", {}, kernels);
   EXPECT_EQ(result.exit_code, 1) << result.err << result.out;
 }
