@@ -15,6 +15,7 @@ constexpr int kSlopes = 128, kAzimuths = 32;  // azimuths over a whole turn
 constexpr int kLights = kSlopes * kAzimuths;
 constexpr std::size_t kLightsPerFrame = 1024;  // whose description fits constant memory of 64 KiB
 constexpr int kSide_px = 2;
+constexpr float kRepeats = 1e5f;  // of a normal map per unit: many under each pixel
 
 struct PartOfSky {
   glm::dvec3 direction;  // tangent frame, z the normal
@@ -73,6 +74,8 @@ Scene squareScene(const Material& material, double view_cosine) {
   Scene scene;
   scene.name = "white_furnace";
   scene.mesh = squareMesh();
+  if (material.normal_map)
+    for (auto& uv : scene.mesh.uvs) uv *= kRepeats;
   scene.materials = {material};
   View view;
   view.fov_y_deg = 0.01;
@@ -96,7 +99,9 @@ double radianceUnder(Device& device, Scene scene, const std::vector<PartOfSky>& 
                            {.width_px = kSide_px, .height_px = kSide_px, .lanes = lanes});
     renderer.prepare();
     renderer.shade();
-    sum += renderer.readRadiance().at(kSide_px / 2, kSide_px / 2)[0];
+    const Image radiance = renderer.readRadiance();
+    for (int y = 0; y < kSide_px; ++y)
+      for (int x = 0; x < kSide_px; ++x) sum += radiance.at(x, y)[0] / (kSide_px * kSide_px);
   }
   return sum;
 }
@@ -106,7 +111,8 @@ double radianceUnder(Device& device, Scene scene, const std::vector<PartOfSky>& 
 double whiteFurnace(Device& device, const Material& material, double view_cosine, int lanes) {
   const Scene scene = squareScene(material, view_cosine);
   const SurfaceMaterial& surface = material.params.surface;
-  if (surface.intensity == 0) return radianceUnder(device, scene, evenSky(), lanes);
+  if (surface.intensity == 0 || material.normal_map)
+    return radianceUnder(device, scene, evenSky(), lanes);
   const glm::dvec3 towards = glm::normalize(scene.views[0].eye - scene.views[0].target);
   const glm::dvec3 local(towards.z, towards.x, towards.y);  // x' = z, y' = x, z' = y
   Scene mirror = scene;

@@ -73,8 +73,9 @@ std::vector<glm::vec3> lightPoints(KernelBench& bench, const AreaLightProbe& pro
     args.push_back(arg);
   probeKernel(bench, kProbes, "probeAreaLights",
               fmt::format("-D WIDTH={} -D LTC=1 -D LIGHT_VERTICES={} -D DIFFUSE={:d} "
-                          "-D CLIPLESS={:d} -D LIGHT_TEXTURE={:d}",
-                          probe.width, vertices, diffuse, probe.clipless, textured))
+                          "-D CLIPLESS={:d} -D LIGHT_TEXTURE={:d} -D ALBEDO_SCALING={:d}",
+                          probe.width, vertices, diffuse, probe.clipless, textured,
+                          diffuse && probe.material.surface.intensity > 0))
       .launch(args, stride / static_cast<std::size_t>(probe.width), kLocalSize);
   std::vector<float> values(3 * stride);
   out.read(values.data(), values.size() * 4);

@@ -107,8 +107,8 @@ inline constexpr double kSameLobe = 2e-4;
 /// A hemisphere of light against the table's albedo: the light is 2e5 wide, not infinite, and the
 /// scale of the lobe was fitted.
 inline constexpr double kHemisphereAlbedo = 2e-3;
-/// Diffuse and specular lobe reflect at most everything each, and table cells overshoot a little.
-inline constexpr double kMostReflected = 2.2;
+/// Diffuse and specular lobe reflect at most everything together, and table cells overshoot a little.
+inline constexpr double kMostReflected = 1.005;
 /// Roughness from the length of a mean normal by the published polynomials, in single precision.
 inline constexpr double kMesoAlpha = 1e-5;
 

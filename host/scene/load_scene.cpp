@@ -107,6 +107,13 @@ PlannedScene planScene(toml::table& content, const std::string& file, const Scen
   readPost(root, scene.post);
   MeshPlan plan = readMesh(root, request, scene.materials);
   scene.environment = readEnvironment(root, request, scene.lights);
+  for (const Material& material : scene.materials)
+    if (material.params.surface.intensity > 1)
+      scene.notes.push_back(
+          fmt::format("material '{}' has an intensity of {:g}: its specular lobe "
+                      "returns more light than it gets where f0 times that is "
+                      "above 1",
+                      material.name, material.params.surface.intensity));
   if (!scene.environment.note.empty()) scene.notes.push_back(scene.environment.note);
   root.finish();
   if (scene.lights.empty() && scene.area_lights.empty()) {
