@@ -31,6 +31,9 @@
 #define STEP_RING 0x6A09E667u
 #define STEP_TURN 0xBB67AE85u
 
+// Cosine of a view that meets a normal at its horizon.
+#define LEAST_VIEW_Z 1e-4f
+
 // One sample of each lane's pixel.
 typedef struct {
   vfloat px, py;       // screen position, pixel centres being whole numbers
@@ -102,7 +105,14 @@ WIDE SurfaceSample sampleSurface(const PixelSurface* surface, uint index,
   const vfloat3 ray = pixelRay(s.px, s.py, frame);
   s.view = toLocal(s.frame, scale3(ray, -wideRsqrt(dot3(ray, ray))));
   s.visible = s.view.z > 0.0f;
-  s.view.z = max(s.view.z, (vfloat)(1e-4f));
+  // From behind the normal the eye is moved to its horizon, at full length: directions are mirrored
+  // at the view to sample diffuse light too.
+  const vmask low = s.view.z < LEAST_VIEW_Z;
+  const vfloat flat_sq = max(fma(s.view.x, s.view.x, s.view.y * s.view.y), (vfloat)(1e-12f));
+  const vfloat stretch = low ? wideRsqrt(flat_sq) : (vfloat)(1.0f);
+  s.view.x *= stretch;
+  s.view.y *= stretch;
+  s.view.z = max(s.view.z, (vfloat)(LEAST_VIEW_Z));
   return s;
 }
 
@@ -161,8 +171,8 @@ WIDE void addToPlane(vfloat value, global float* sums, size_t i) {
   storeFloat(bitsToFloat(loadUint((global const uint*)sums, i)) + value, sums, i);
 }
 
-// Adds `sample_count` samples of a replicate, from number `sample_begin` on, to `sums`: three planes
-// of frame->plane_stride entries, radiance (r, g, b). Lights are sampled over their cones.
+// Adds `sample_count` samples of a replicate, from number `sample_begin` on, to `sums`: three
+// planes of frame->plane_stride entries, radiance (r, g, b). Lights are sampled over their cones.
 kernel void truth(global const uint* planes, constant const FrameParams* frame,
                   constant const MaterialParams* material, constant const LightParams* lights,
 #if NORMAL_MAP
@@ -174,8 +184,7 @@ kernel void truth(global const uint* planes, constant const FrameParams* frame,
                   constant const MipTexture* pictures, global const float4* picture_texels,
 #endif
 #endif
-                  global float* sums, uint replicate, uint sample_begin,
-                  uint sample_count) {
+                  global float* sums, uint replicate, uint sample_begin, uint sample_count) {
   const size_t first = get_global_id(0) * WIDTH;
   if (first >= frame->list_count) return;
   const size_t entry = frame->list_offset + first, stride = frame->plane_stride;

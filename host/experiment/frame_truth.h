@@ -26,8 +26,8 @@ ReplicatedTruth truthOf(BenchRun& run, const Scene& scene, const View& view,
 
 /// What the mean of R independent replicates may be off in a metric of frames, `metric(frame,
 /// truth)`: the mean over replicates of how far frames are that differ from the mean by an error as
-/// large as its own. A replicate is off by sqrt(R) times as much as their mean, and from the mean by
-/// sqrt(R - 1) times. 0 of a single replicate. Sizes are equal.
+/// large as its own. A replicate is off by sqrt(R) times as much as their mean, and from the mean
+/// by sqrt(R - 1) times. 0 of a single replicate. Sizes are equal.
 double errorOfMean(const Image& mean, std::span<const Image> replicates,
                    const std::function<double(const Image&, const Image&)>& metric);
 

@@ -17,8 +17,7 @@ namespace {
 // Error 8 / samples, 0.5 of the default's time a sample.
 std::vector<SampledPoint> monteCarlo() {
   std::vector<SampledPoint> curve;
-  for (const double samples : {1, 4, 16})
-    curve.push_back({samples, 0.5 * samples, 8 / samples});
+  for (const double samples : {1, 4, 16}) curve.push_back({samples, 0.5 * samples, 8 / samples});
   return curve;
 }
 
@@ -106,8 +105,8 @@ TEST(EqualCost, SettingsHaveTheTimeAndErrorTheyHave) {
 
 TEST(EqualCost, ScenesAreGroupsOfTheirOwn) {
   std::vector<Record> records = sweep("ltc", 0.5);
-  for (const auto& [scene, slow] : {std::pair{"ltc/area_cloth/near", 0.5},
-                                    std::pair{"ltc/area_knot/middle", 2.0}}) {
+  for (const auto& [scene, slow] :
+       {std::pair{"ltc/area_cloth/near", 0.5}, std::pair{"ltc/area_knot/middle", 2.0}}) {
     const std::vector<Record> more = sweep(scene, slow);
     records.insert(records.end(), more.begin(), more.end());
   }

@@ -192,8 +192,8 @@ TEST(Truth, ReplicatesAreSharedOutAndOneSampleStatesNoError) {
   };
   TruthImages truth;
   EXPECT_EQ(replicates(1, truth).size(), 1u);
-  EXPECT_EQ(rootMeanSquare(truth, [&](std::size_t i) { return truth.standard_error.pixels[3 * i]; }),
-            0);
+  EXPECT_EQ(
+      rootMeanSquare(truth, [&](std::size_t i) { return truth.standard_error.pixels[3 * i]; }), 0);
   EXPECT_EQ(replicates(5, truth).size(), 5u);
   // Ten samples: two replicates of two, six of one.
   const std::vector<Image> means = replicates(10, truth);

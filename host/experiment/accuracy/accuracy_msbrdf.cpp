@@ -25,7 +25,8 @@ constexpr double kAlphas[] = {0.43, 0.8};
 constexpr int kThetas_deg[] = {0, 70};
 constexpr double kClay[] = {0.85, 0.55, 0.4};  // the facets' albedo, rough_plane's
 constexpr int kOrders = 6;
-// The truth is the mean of so many simulations, of kTruthRays / kTruthSimulations times --rays each.
+// The truth is the mean of so many simulations, of kTruthRays / kTruthSimulations times --rays
+// each.
 constexpr std::uint32_t kFirstSimulationSeed = 1001, kTruthSimulations = 8, kTruthRays = 2;
 constexpr std::uint32_t kRivalSeed = 7;
 
@@ -141,7 +142,8 @@ class MsbrdfSweep : public AccuracyEffect {
 std::string MsbrdfSweep::errorNote() const {
   return fmt::format(
       "error: root mean square of the lobe's difference over its mean, albedo {}, against "
-      "simulations of {} rays in all, geometric mean over roughness {} and incidence {} degrees; times of "
+      "simulations of {} rays in all, geometric mean over roughness {} and incidence {} degrees; "
+      "times of "
       "models: {} at {}",
       fmt::join(kClay, ", "), run_.options().rays * kTruthRays, fmt::join(kAlphas, ", "),
       fmt::join(kThetas_deg, ", "), scene_, run_.options().size);

@@ -91,7 +91,8 @@ std::string headText(const BenchRun& run) {
       "variance\n"
       "and motion: over the truth's; fit ratio: time before the first frame. Beside the default: "
       "error in\n"
-      "its time, time over its time for its error, 1 / (mean square error x time) over its; what is "
+      "its time, time over its time for its error, 1 / (mean square error x time) over its; what "
+      "is "
       "not\n"
       "sampled has one time and one error, and else never reaches them.\n\n",
       run.options().size, run.info().width, run.info().peak_gflops, run.info().device,

@@ -59,11 +59,11 @@ std::vector<SettingGroup> settingGroups(std::span<const Record> records) {
     auto group = std::ranges::find(groups, name, &SettingGroup::name);
     if (group == groups.end()) group = groups.insert(group, SettingGroup{name});
     const Record *truth = one.find("truth_stderr"), *squares = one.find("rel_mse");
-    group->settings.push_back({case_name, CaseName{{}, parts.knobs}.text(), accuracyRole(*error),
-                               error, ratio->value.median, 2 * medianStandardError(ratio->value),
-                               truth == nullptr ? 0 : truth->value.median,
-                               squares == nullptr ? std::pow(error->value.median, 2)
-                                                  : squares->value.median});
+    group->settings.push_back(
+        {case_name, CaseName{{}, parts.knobs}.text(), accuracyRole(*error), error,
+         ratio->value.median, 2 * medianStandardError(ratio->value),
+         truth == nullptr ? 0 : truth->value.median,
+         squares == nullptr ? std::pow(error->value.median, 2) : squares->value.median});
   }
   for (SettingGroup& group : groups) group.points = measuredPoints(group);
   return groups;

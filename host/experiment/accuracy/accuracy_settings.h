@@ -1,5 +1,5 @@
-// Cases of table "accuracy" as settings that can be compared: an effect's over all its scenes, or in
-// one scene.
+// Cases of table "accuracy" as settings that can be compared: an effect's over all its scenes, or
+// in one scene.
 #pragma once
 #include <span>
 #include <string>
@@ -34,8 +34,9 @@ struct SettingGroup {
   std::string name;  // "ltc", or "ltc/area_cloth/near" of a single scene
   std::vector<MeasuredSetting> settings{};
   // Of the settings, as far as they can be told apart: times within two standard errors of their
-  // median are the default's, errors below the truth's standard error are equal, both go in steps of
-  // kAccuracyStep from the default's. A setting that is not valid has an error that is no number.
+  // median are the default's, errors below the truth's standard error are equal, both go in steps
+  // of kAccuracyStep from the default's. A setting that is not valid has an error that is no
+  // number.
   std::vector<CostAndError> points{};
 
   /// Of all scenes.

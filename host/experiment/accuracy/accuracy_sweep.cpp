@@ -129,9 +129,9 @@ const std::vector<StageMeasured>& AccuracySweep::measuredStages(const AccuracySe
   std::vector<StageMeasured> all;
   for (std::size_t i = 0; i < stages().size(); ++i) {
     stopIfInterrupted();
-    all.push_back(
-        {figures(i, stages_[i], setting),
-         setting.samples > 0 ? measureSampledTimes(i, setting) : measureTimes(i, setting)});
+    all.push_back({figures(i, stages_[i], setting), setting.samples > 0
+                                                        ? measureSampledTimes(i, setting)
+                                                        : measureTimes(i, setting)});
   }
   all.front().times.fit_ratio = fitRatios(stages_.front(), setting);
   return measured_.emplace(key, std::move(all)).first->second;

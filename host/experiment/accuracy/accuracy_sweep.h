@@ -98,8 +98,8 @@ class AccuracySweep : public AccuracyEffect {
   std::vector<std::string> scenes_;
   std::vector<AccuracySetting> settings_;
   AccuracyNotes notes_;
-  std::vector<AccuracyStage> stages_;                      // loaded when first needed
-  std::vector<std::unique_ptr<FrameRenderer>> standards_;  // the default in every stage
+  std::vector<AccuracyStage> stages_;                           // loaded when first needed
+  std::vector<std::unique_ptr<FrameRenderer>> standards_;       // the default in every stage
   std::map<std::string, std::vector<StageMeasured>> measured_;  // by setting, "" the default
 };
 

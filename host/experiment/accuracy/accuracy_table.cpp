@@ -267,10 +267,8 @@ std::vector<Record> accuracyDerived(std::span<const Record> records) {
             "1: no other setting is both faster and closer");
       if (costs.empty()) continue;
       const EqualCost& cost = costs[i];
-      if (cost.error_at_time)
-        add(setting, "error_at_default_time", *cost.error_at_time, cost.how);
-      if (cost.time_at_error)
-        add(setting, "time_at_default_error", *cost.time_at_error, cost.how);
+      if (cost.error_at_time) add(setting, "error_at_default_time", *cost.error_at_time, cost.how);
+      if (cost.time_at_error) add(setting, "time_at_default_error", *cost.time_at_error, cost.how);
       if (cost.efficiency) add(setting, "efficiency", *cost.efficiency, "over the default's");
     }
   }

@@ -81,8 +81,8 @@ const SampledSweep::Truth& SampledSweep::truth(std::size_t index, const Accuracy
   made.row = coveredPixels(truth.images.mean);
   made.sane = std::ranges::all_of(truth.replicates, isSane) && !made.row.pixels.empty();
   if (made.sane)
-    made.standard_error = errorOfMean(
-        truth.images.mean, truth.replicates, [&](const Image& off, const Image& mean) {
+    made.standard_error =
+        errorOfMean(truth.images.mean, truth.replicates, [&](const Image& off, const Image& mean) {
           return principal(settings_.metric, coveredPixels(off), coveredPixels(mean),
                            stage.scene().post.exposure);
         });

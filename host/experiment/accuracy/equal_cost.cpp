@@ -17,9 +17,7 @@ struct Segment {
   // Of the logarithm of the error over that of the time.
   double slope() const { return std::log(to.error / from.error) / std::log(to.time / from.time); }
   bool falls() const { return to.time > from.time && slope() < -kLeastSlope; }
-  double errorAt(double time) const {
-    return from.error * std::pow(time / from.time, slope());
-  }
+  double errorAt(double time) const { return from.error * std::pow(time / from.time, slope()); }
   double timeAt(double error) const {
     return from.time * std::pow(error / from.error, 1 / slope());
   }

@@ -31,13 +31,12 @@ constexpr SceneColumn kSceneColumns[] = {
     {"error", "error"}, {"bias", "bias"}, {"time over the default's", "time_ratio"}};
 
 std::string sceneTableText(std::span<const Record> records, std::span<const SettingGroup> scenes,
-                      const SceneColumn& column) {
+                           const SceneColumn& column) {
   std::vector<std::string> header = {column.title};
   for (const SettingGroup& scene : scenes) header.push_back(sceneName(scene));
   TextTable table(header);
   for (const MeasuredSetting& setting : scenes.front().settings) {
-    std::vector<std::string> row = {setting.name +
-                                    (setting.role == kAccuracyDefault ? " *" : "")};
+    std::vector<std::string> row = {setting.name + (setting.role == kAccuracyDefault ? " *" : "")};
     for (const SettingGroup& scene : scenes)
       row.push_back(CaseRecords(records, scene.name + "/" + setting.name).text(column.metric));
     table.addRow(row);
@@ -65,11 +64,10 @@ std::string spreadText(std::span<const SettingGroup> scenes, const std::string& 
   }
   if (times.empty()) return "";
   const auto [least, most] = std::ranges::minmax_element(times);
-  return fmt::format("For the default's error {} takes {} ({}) to {} ({}) times its time{}.\n", knob,
-                     compactNumber(least->first), least->second, compactNumber(most->first),
-                     most->second,
-                     never > 0 ? fmt::format(", and never comes as close in {} scenes", never)
-                               : "");
+  return fmt::format(
+      "For the default's error {} takes {} ({}) to {} ({}) times its time{}.\n", knob,
+      compactNumber(least->first), least->second, compactNumber(most->first), most->second,
+      never > 0 ? fmt::format(", and never comes as close in {} scenes", never) : "");
 }
 
 }  // namespace

@@ -38,8 +38,8 @@ Truth measureTruth(BenchRun& run, const Tan05Scene& scene, const View& view,
                    const Tan05Settings& settings) {
   ReplicatedTruth truth =
       truthOf(run, scene.scene, view, settings.shading, settings.truth_spp, scene.textures);
-  const double error = errorOfMean(
-      truth.images.mean, truth.replicates, [&](const Image& off, const Image& mean) {
+  const double error =
+      errorOfMean(truth.images.mean, truth.replicates, [&](const Image& off, const Image& mean) {
         return colourError(coveredDisplay(off, scene.scene), coveredDisplay(mean, scene.scene));
       });
   return {std::move(truth.images.mean), error};
