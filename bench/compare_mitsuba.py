@@ -5,7 +5,7 @@
 
 exports the view, renders it by both, and prints a line of Markdown: Mitsuba's mean over the truth's with its
 standard error from independent seeds, relMSE, and the relMSE that Mitsuba's noise alone makes, also from the
-seeds. No test needs it.
+seeds; over pixels that meshes cover with all their neighbours. No test needs it.
 """
 import argparse
 import pathlib
@@ -70,8 +70,18 @@ def theirs(chosen, folder):
     return np.array(pictures)
 
 
+def inner(alpha):
+    """Pixels that are covered and whose neighbours are: on an edge Mitsuba sees past the mesh."""
+    covered = np.pad(alpha > 0, 1, mode="edge")
+    height, width = alpha.shape
+    shifted = [covered[y : y + height, x : x + width] for y in range(3) for x in range(3)]
+    return np.logical_and.reduce(shifted)
+
+
 def row(chosen, picture, pictures):
-    covered = picture[:, :, 3] > 0
+    covered = inner(picture[:, :, 3])
+    if not covered.any():
+        sys.exit(f"compare_mitsuba: {chosen.scene} covers no pixel whose neighbours are covered too")
     a, b = picture[covered][:, :3], pictures[:, covered]
     mean, count = b.mean(axis=0), len(b)
     error = b.std(axis=0, ddof=1) / np.sqrt(count)  # of Mitsuba's mean, by pixel
