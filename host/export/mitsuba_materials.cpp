@@ -74,12 +74,15 @@ void writeLobes(MitsubaScene& to, const Material& material, bool by_halves) {
   if (by_halves) to.xml.close();
 }
 
-// Opens a BSDF around the lobes; `name` is the map's file.
-void openNormalMap(MitsubaScene& to, const NormalMap& map, const std::string& name) {
+// Opens a BSDF around the lobes.
+void openNormalMap(MitsubaScene& to, const NormalMap& map, const MaterialPart& part) {
+  const std::string name = fmt::format("normals_{}.exr", part.name());
   Image image(map.width_px, map.height_px, 3);
-  for (std::size_t i = 0; i < map.normals.size(); ++i)
+  for (std::size_t i = 0; i < map.normals.size(); ++i) {
+    const glm::vec3 n = map.normals[i] * glm::vec3(1, part.mirrored ? -1 : 1, 1);
     for (int c = 0; c < 3; ++c)
-      image.pixels[3 * i + static_cast<std::size_t>(c)] = 0.5f * (map.normals[i][c] + 1);
+      image.pixels[3 * i + static_cast<std::size_t>(c)] = 0.5f * (n[c] + 1);
+  }
   writeExr(image, to.folder / name);
   to.xml.open("bsdf", {{"type", "normalmap"}});
   // As here: a normal that turns from the eye is no other, and light is cut at its horizon alone.
@@ -131,15 +134,16 @@ void shareOutReflectance(MitsubaScene& to) {
 
 void writeMaterials(MitsubaScene& to) {
   const bool by_halves = byHalves(to.scene);
-  for (std::size_t i = 0; i < to.scene.materials.size(); ++i) {
-    const Material& material = to.scene.materials[i];
-    to.xml.open("bsdf", {{"type", "twosided"}, {"id", fmt::format("material_{}", i)}});
-    if (material.normal_map)
-      openNormalMap(to, *material.normal_map->map, fmt::format("normals_{}.exr", i));
+  std::uint32_t noted = 0;
+  for (const MaterialPart& part : materialParts(to.scene)) {
+    const Material& material = to.scene.materials[part.material];
+    to.xml.open("bsdf", {{"type", "twosided"}, {"id", "material_" + part.name()}});
+    if (material.normal_map) openNormalMap(to, *material.normal_map->map, part);
     writeLobes(to, material, by_halves);
     if (material.normal_map) to.xml.close();
     to.xml.close();
-    noteMaterial(to, material);
+    if (part.material >= noted) noteMaterial(to, material);
+    noted = part.material + 1;
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -29,11 +30,24 @@ std::string rgbText(const Rgb& rgb, double scale = 1) {
   return fmt::format("{}, {}, {}", rgb.x * scale, rgb.y * scale, rgb.z * scale);
 }
 
+/// The triangles of one material that need a BSDF of their own: where uv charts are mirrored, so
+/// are the bitangents of a normal map.
+struct MaterialPart {
+  std::uint32_t material = 0;
+  bool mirrored = false;
+
+  /// "2", "2_mirrored": part of names of files and elements.
+  std::string name() const { return fmt::format("{}{}", material, mirrored ? "_mirrored" : ""); }
+  bool has(const Scene& scene, std::size_t triangle) const;
+};
+/// Those that have triangles, by material; a material without a normal map is one part.
+std::vector<MaterialPart> materialParts(const Scene& scene);
+
 /// Sets MitsubaScene::reflected_share.
 void shareOutReflectance(MitsubaScene& to);
-/// A BSDF of id "material_N" for each material, in order.
+/// A BSDF of id "material_NAME" for each part.
 void writeMaterials(MitsubaScene& to);
-/// A mesh for each material that has triangles.
+/// A mesh for each part.
 void writeMeshes(MitsubaScene& to);
 void writeLights(MitsubaScene& to);
 

@@ -162,6 +162,22 @@ TEST(Export, ConesAreCapsOfTheSameIrradiance) {
   EXPECT_NE(readFile(folder / "e/README.md").find("cones of light are"), std::string::npos);
 }
 
+// The knot's charts are mirrored: so is the map.
+TEST(Export, MirroredChartsMirrorTheMap) {
+  const TempFolder folder;
+  const std::string small = "material.gold.normal_map.size_px=8";
+  const std::string xml = exported(folder, {"armour", "--quiet", "--set", small});
+  EXPECT_EQ(countOf(xml, "<ref id=\"material_0_mirrored\"/>"), 1u);
+  EXPECT_EQ(countOf(xml, "<ref id=\"material_0\"/>"), 0u);
+  const Image mirrored = readImage(folder / "e/normals_0_mirrored.exr");
+  exported(folder, {"disk", "--quiet", "--set", "material.silver.normal_map.size_px=8", "--set",
+                    "material.silver.normal_map.generator=armour"});
+  const Image map = readImage(folder / "e/normals_0.exr");
+  ASSERT_EQ(map.pixels.size(), mirrored.pixels.size());
+  for (std::size_t i = 0; i < map.pixels.size(); ++i)
+    EXPECT_NEAR(i % 3 == 1 ? 1 - map.pixels[i] : map.pixels[i], mirrored.pixels[i], 1e-6);
+}
+
 TEST(Export, PicturesOfLightsCarryTheirRadiance) {
   const TempFolder folder;
   const std::string xml = exported(folder, {"area_glass", "--quiet"});
