@@ -1,7 +1,10 @@
 // Ground truth by supersampling: every sample takes a point of the pixel, the finest normal there,
 // and shades it like a smooth surface. [TAN05] traces 16 rays a pixel.
 //
-// Samples can be taken in batches; the host divides the sums by the number of all samples.
+// Samples can be taken in batches; the host divides the sums by the number of all samples. The
+// points of a replicate lie evenly, so they say nothing of their own error; those of another
+// replicate are shifted at random, pixel by pixel (Cranley and Patterson 1976), and the spread of
+// replicates does.
 #include "config.clh"
 #include "types.h"
 #include "wide/wide.clh"
@@ -29,6 +32,9 @@
 #define STEP_RING 0x6A09E667u
 #define STEP_TURN 0xBB67AE85u
 
+// Cosine of a view that meets a normal at its horizon.
+#define LEAST_VIEW_Z 1e-4f
+
 // One sample of each lane's pixel.
 typedef struct {
   vfloat px, py;       // screen position, pixel centres being whole numbers
@@ -50,11 +56,12 @@ typedef struct {
 #endif
 } PixelSurface;
 
-WIDE PixelSurface loadSurface(global const uint* planes, size_t stride, size_t entry) {
+WIDE PixelSurface loadSurface(global const uint* planes, size_t stride, size_t entry,
+                              uint replicate) {
 #define LOAD(plane) loadUint(planes, (plane)*stride + entry)
   PixelSurface s;
   s.pixel = LOAD(PLANE_PIXEL);
-  s.seed = mixCell(s.pixel * HASH_U);
+  s.seed = mixCell(s.pixel * HASH_U + replicate * HASH_SIZE);
   s.basis = unpackFrame(LOAD(PLANE_FRAME0), LOAD(PLANE_FRAME1));
 #if NORMAL_MAP
   s.u = LOAD(PLANE_U_FRAC);
@@ -99,7 +106,14 @@ WIDE SurfaceSample sampleSurface(const PixelSurface* surface, uint index,
   const vfloat3 ray = pixelRay(s.px, s.py, frame);
   s.view = toLocal(s.frame, scale3(ray, -wideRsqrt(dot3(ray, ray))));
   s.visible = s.view.z > 0.0f;
-  s.view.z = max(s.view.z, (vfloat)(1e-4f));
+  // From behind the normal the eye is moved to its horizon, at full length: directions are mirrored
+  // at the view to sample diffuse light too.
+  const vmask low = s.view.z < LEAST_VIEW_Z;
+  const vfloat flat_sq = max(fma(s.view.x, s.view.x, s.view.y * s.view.y), (vfloat)(1e-12f));
+  const vfloat stretch = low ? wideRsqrt(flat_sq) : (vfloat)(1.0f);
+  s.view.x *= stretch;
+  s.view.y *= stretch;
+  s.view.z = max(s.view.z, (vfloat)(LEAST_VIEW_Z));
   return s;
 }
 
@@ -163,9 +177,8 @@ WIDE void addToPlane(vfloat value, global float* sums, size_t i) {
   storeFloat(bitsToFloat(loadUint((global const uint*)sums, i)) + value, sums, i);
 }
 
-// Adds `sample_count` samples from number `sample_begin` on to `sums`: six planes of
-// frame->plane_stride entries, radiance (r, g, b) and its squares. Lights are sampled over their
-// cones.
+// Adds `sample_count` samples of a replicate, from number `sample_begin` on, to `sums`: three
+// planes of frame->plane_stride entries, radiance (r, g, b). Lights are sampled over their cones.
 kernel void truth(global const uint* planes, constant const FrameParams* frame,
                   constant const MaterialParams* material, constant const LightParams* lights,
 #if NORMAL_MAP
@@ -177,13 +190,12 @@ kernel void truth(global const uint* planes, constant const FrameParams* frame,
                   constant const MipTexture* pictures, global const float4* picture_texels,
 #endif
 #endif
-                  global float* sums, uint sample_begin, uint sample_count) {
+                  global float* sums, uint replicate, uint sample_begin, uint sample_count) {
   const size_t first = get_global_id(0) * WIDTH;
   if (first >= frame->list_count) return;
   const size_t entry = frame->list_offset + first, stride = frame->plane_stride;
-  const PixelSurface surface = loadSurface(planes, stride, entry);
+  const PixelSurface surface = loadSurface(planes, stride, entry, replicate);
   vfloat3 sum = {(vfloat)(0.0f), (vfloat)(0.0f), (vfloat)(0.0f)};
-  vfloat3 squares = sum;
 #if LTC
   const vfloat depth = bitsToFloat(loadUint(planes, PLANE_DEPTH * stride + entry));
 #endif
@@ -207,14 +219,8 @@ kernel void truth(global const uint* planes, constant const FrameParams* frame,
     sum.x += value.x;
     sum.y += value.y;
     sum.z += value.z;
-    squares.x = fma(value.x, value.x, squares.x);
-    squares.y = fma(value.y, value.y, squares.y);
-    squares.z = fma(value.z, value.z, squares.z);
   }
   addToPlane(sum.x, sums, entry);
   addToPlane(sum.y, sums, stride + entry);
   addToPlane(sum.z, sums, 2 * stride + entry);
-  addToPlane(squares.x, sums, 3 * stride + entry);
-  addToPlane(squares.y, sums, 4 * stride + entry);
-  addToPlane(squares.z, sums, 5 * stride + entry);
 }

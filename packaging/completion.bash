@@ -16,7 +16,7 @@ _glintmark() {
   else
     mapfile -t COMPREPLY < <(compgen -f -- "$word")
     case $command in
-      render | heatmap | profile)
+      render | heatmap | export | profile)
         scenes=$(dirname "$(readlink -f "$(command -v "$program")")")/../share/glintmark/scenes
         mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(compgen -W \
           "$(cd "$scenes" 2>/dev/null && printf '%s\n' *.toml | sed 's/\.toml$//')" -- "$word")

@@ -15,6 +15,7 @@ struct CommandLine : Session {
 
 void addInfoCommand(Command app, CommandLine& line);
 void addRenderCommand(Command app, CommandLine& line);
+void addExportCommand(Command app, CommandLine& line);
 void addHeatmapCommand(Command app, CommandLine& line);
 void addAccuracyCommand(Command app, CommandLine& line);
 void addBenchCommand(Command app, CommandLine& line);

@@ -58,6 +58,7 @@ int runProgram(int argc, const char* const* argv) {
   addInfoCommand(app, line);
   addRenderCommand(app, line);
   addHeatmapCommand(app, line);
+  addExportCommand(app, line);
   addBenchCommand(app, line);
   addAccuracyCommand(app, line);
   addSimulateCommand(app, line);

@@ -153,7 +153,7 @@ Image renderedTruth(const CommandLine& line, Device& device, const Scene& scene,
     mean += truth.mean.pixels[i / 3 * 4 + i % 3];
     error += truth.standard_error.pixels[i];
   }
-  fmt::print("{}/{} {}x{}: {} samples a pixel, mean standard error at most {:.2g} of the mean\n",
+  fmt::print("{}/{} {}x{}: {} samples a pixel, mean standard error {:.2g} of the mean\n",
              scene.name, view.name, shading.width_px, shading.height_px, spp,
              mean > 0 ? error / mean : 0.0);
   return std::move(truth.mean);

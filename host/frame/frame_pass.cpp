@@ -185,6 +185,11 @@ void FramePass::setNumber(std::string_view name, std::uint32_t value) {
     for (Launch& launch : band.launches) launch.arguments.set(name, value);
 }
 
+void FramePass::clearResults() {
+  for (Band& band : bands_)
+    if (!band.results.empty()) band.results.fillZero();
+}
+
 FrameTimes FramePass::launch() {
   FrameTimes times;
   for (Band& band : bands_)

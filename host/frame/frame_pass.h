@@ -27,9 +27,9 @@ struct PassKernel {
   std::span<const char* const> numbers = {};  // its last arguments, which setNumber() gives
 };
 inline constexpr PassKernel kShadePass = {"shade.cl", "shade", "radiance", 3, false};
-/// Sums of radiance, then of its squares.
-inline constexpr const char* kTruthNumbers[] = {"sample_begin", "sample_count"};
-inline constexpr PassKernel kTruthPass = {"truth.cl", "truth", "sums", 6, true, kTruthNumbers};
+/// Sums of radiance.
+inline constexpr const char* kTruthNumbers[] = {"replicate", "sample_begin", "sample_count"};
+inline constexpr PassKernel kTruthPass = {"truth.cl", "truth", "sums", 3, true, kTruthNumbers};
 
 class FramePass {
  public:
@@ -66,6 +66,8 @@ class FramePass {
   /// Gives one of PassKernel::numbers, 0 after prepare(), to the launches to come. Throws Error if
   /// the kernel has none of that name.
   void setNumber(std::string_view name, std::uint32_t value);
+  /// Clears results that are summed up, as prepare() does.
+  void clearResults();
   /// Launches every material's kernel and waits.
   FrameTimes launch();
 

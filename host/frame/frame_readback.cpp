@@ -31,16 +31,14 @@ void forEachCount(const FramePass& pass, const Visit& visit) {
 
 }  // namespace
 
-Image readPlanes(const FramePass& pass, std::size_t first_plane, double& readback_ns) {
+Image readPlanes(const FramePass& pass, double& readback_ns) {
   const Camera& camera = pass.camera();
   Image image(camera.width_px, camera.height_px, 4);
   image.channel_names = {"R", "G", "B", "A"};
   for (const FramePass::Band& band : pass.bands()) {
     const PixelPlanes& planes = band.planes;
     std::vector<float> words(planes.stride * 3);
-    if (!words.empty())
-      readback_ns +=
-          band.results.read(words.data(), words.size() * 4, first_plane * planes.stride * 4);
+    if (!words.empty()) readback_ns += band.results.read(words.data(), words.size() * 4);
     const auto pixels = planes.plane(Plane::kPixel);
     for (const PixelList& list : planes.lists)
       tbb::parallel_for(list.offset, list.offset + list.count, [&](std::uint32_t i) {

@@ -16,9 +16,9 @@ struct CellCounts {
   std::size_t guard_hits = 0;  // pixels whose walk a limit cut short
 };
 
-/// Three result planes from `first_plane` on as RGBA: alpha 1 where covered, background 0. Adds the
-/// time of the transfer [ns].
-Image readPlanes(const FramePass& pass, std::size_t first_plane, double& readback_ns);
+/// The three result planes as RGBA: alpha 1 where covered, background 0. Adds the time of the
+/// transfer [ns].
+Image readPlanes(const FramePass& pass, double& readback_ns);
 
 /// Cells per pixel as one channel, -1 where no glint material covers. Throws Error if they were not
 /// counted; so does countCells.

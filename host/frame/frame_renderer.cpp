@@ -24,7 +24,7 @@ FrameTimes FrameRenderer::shade() {
 Image FrameRenderer::readRadiance(FrameTimes* times) {
   const TraceScope scope("frame", "read back");
   double readback_ns = 0;
-  Image image = readPlanes(pass_, 0, readback_ns);
+  Image image = readPlanes(pass_, readback_ns);
   if (times) times->readback_ns = readback_ns;
   return image;
 }

@@ -16,6 +16,43 @@ constexpr int kMostSpp = 1 << 20;
 // Samples of all pixels together in one launch: some tenths of a second on two cores.
 constexpr double kBatchSamples = 8e6;
 
+// Mean and spread of replicates' means, which weigh as much as the samples they have. West,
+// "Updating Mean and Variance Estimates: an Improved Method", 1979.
+class TruthSpread {
+ public:
+  TruthSpread(int width_px, int height_px)
+      : images_{Image(width_px, height_px, 4), Image(width_px, height_px, 3)} {}
+
+  void add(const Image& replicate, int samples) {
+    weight_ += samples;
+    ++count_;
+    const float share = static_cast<float>(samples) / static_cast<float>(weight_);
+    if (count_ == 1) images_.mean.channel_names = replicate.channel_names;
+    for (std::size_t i = 0; i < replicate.pixels.size() / 4; ++i) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        float& mean = images_.mean.pixels[4 * i + c];
+        const float before = replicate.pixels[4 * i + c] - mean;
+        mean += share * before;
+        images_.standard_error.pixels[3 * i + c] +=
+            static_cast<float>(samples) * before * (replicate.pixels[4 * i + c] - mean);
+      }
+      images_.mean.pixels[4 * i + 3] = replicate.pixels[4 * i + 3];
+    }
+  }
+
+  // Squares become errors; nothing can be added after it.
+  TruthImages take() {
+    const auto freedom = static_cast<float>(weight_) * static_cast<float>(std::max(1, count_ - 1));
+    for (float& squares : images_.standard_error.pixels)
+      squares = std::sqrt(std::max(0.0f, squares) / freedom);
+    return std::move(images_);
+  }
+
+ private:
+  TruthImages images_;
+  int weight_ = 0, count_ = 0;
+};
+
 }  // namespace
 
 TruthRenderer::TruthRenderer(Device& device, const Scene& scene, const View& view,
@@ -23,8 +60,10 @@ TruthRenderer::TruthRenderer(Device& device, const Scene& scene, const View& vie
                              std::shared_ptr<NormalTextures> textures)
     : pass_(kTruthPass, device, scene, view, options, thread_count, std::move(textures)) {}
 
-FrameTimes TruthRenderer::addSamples(std::uint32_t begin, std::uint32_t count) {
+FrameTimes TruthRenderer::addSamples(std::uint32_t begin, std::uint32_t count,
+                                     std::uint32_t replicate) {
   const TraceScope scope("frame", "truth samples");
+  pass_.setNumber("replicate", replicate);
   pass_.setNumber("sample_begin", begin);
   pass_.setNumber("sample_count", count);
   return pass_.launch();
@@ -32,12 +71,7 @@ FrameTimes TruthRenderer::addSamples(std::uint32_t begin, std::uint32_t count) {
 
 Image TruthRenderer::readSum() const {
   double readback_ns = 0;
-  return readPlanes(pass_, 0, readback_ns);
-}
-
-Image TruthRenderer::readSquares() const {
-  double readback_ns = 0;
-  return readPlanes(pass_, 3, readback_ns);
+  return readPlanes(pass_, readback_ns);
 }
 
 Image TruthRenderer::readMean(std::uint32_t count) const {
@@ -50,7 +84,7 @@ Image TruthRenderer::readMean(std::uint32_t count) const {
 TruthImages renderTruth(Device& device, const Scene& scene, const View& view,
                         const ShadingOptions& options, int spp,
                         const std::function<void(int done)>& progress, int thread_count,
-                        std::shared_ptr<NormalTextures> textures) {
+                        std::shared_ptr<NormalTextures> textures, std::vector<Image>* replicates) {
   if (spp < 1 || spp > kMostSpp)
     throw Error(fmt::format("{} samples a pixel are not from 1 to {}", spp, kMostSpp));
   TruthRenderer renderer(device, scene, view, options, thread_count, std::move(textures));
@@ -58,24 +92,24 @@ TruthImages renderTruth(Device& device, const Scene& scene, const View& view,
   const Camera& camera = renderer.camera();
   const double pixels = static_cast<double>(camera.width_px) * camera.height_px;
   const int batch = std::max(1, static_cast<int>(kBatchSamples / pixels));
-  for (int done = 0; done < spp;) {
-    const int count = std::min(batch, spp - done);
-    renderer.addSamples(static_cast<std::uint32_t>(done), static_cast<std::uint32_t>(count));
-    done += count;
-    if (progress) progress(done);
-  }
-
-  TruthImages truth{renderer.readSum(), Image(camera.width_px, camera.height_px, 3)};
-  const Image squares = renderer.readSquares();
-  const auto n = static_cast<float>(spp);
-  for (std::size_t i = 0; i < squares.pixels.size() / 4; ++i)
-    for (std::size_t c = 0; c < 3; ++c) {
-      float& mean = truth.mean.pixels[4 * i + c];
-      mean /= n;
-      const float variance = std::max(0.0f, squares.pixels[4 * i + c] / n - mean * mean);
-      truth.standard_error.pixels[3 * i + c] = spp > 1 ? std::sqrt(variance / (n - 1)) : 0.0f;
+  const int count = std::min(spp, kTruthReplicates);
+  TruthSpread spread(camera.width_px, camera.height_px);
+  int done = 0;
+  for (int replicate = 0; replicate < count; ++replicate) {
+    const int samples = spp / count + (replicate < spp % count ? 1 : 0);
+    renderer.clear();
+    for (int begin = 0; begin < samples; begin += batch) {
+      const int some = std::min(batch, samples - begin);
+      renderer.addSamples(static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(some),
+                          static_cast<std::uint32_t>(replicate));
+      done += some;
+      if (progress) progress(done);
     }
-  return truth;
+    Image mean = renderer.readMean(static_cast<std::uint32_t>(samples));
+    spread.add(mean, samples);
+    if (replicates != nullptr) replicates->push_back(std::move(mean));
+  }
+  return spread.take();
 }
 
 }  // namespace glintmark

@@ -3,14 +3,18 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <vector>
 
 #include "host/core/image.h"
 #include "host/frame/frame_pass.h"
 
 namespace glintmark {
 
-/// The paper's rays per pixel. [TAN05] Sect. 5
-inline constexpr int kPaperTruthSpp = 16;
+/// Independent replicates of the samples' points, whose spread is the truth's standard error: the
+/// points of one lie evenly, and beat what their spread says.
+inline constexpr int kTruthReplicates = 8;
+/// A replicate that no truth has, for sampled frames that are held against one.
+inline constexpr std::uint32_t kRivalReplicate = kTruthReplicates;
 
 /// Sums samples of a view. No effect's own kernel functions are called: lights are looked up, and
 /// normals read, at each sample's place.
@@ -23,11 +27,12 @@ class TruthRenderer {
 
   /// Rasterizes, uploads and forgets earlier samples; must come before addSamples().
   FrameTimes prepare() { return pass_.prepare(); }
-  /// Adds samples `begin` and following, `count` of them, to every pixel.
-  FrameTimes addSamples(std::uint32_t begin, std::uint32_t count);
-  /// Sums over the samples, and over their squares, laid out as FrameRenderer::readRadiance().
+  /// Forgets earlier samples; prepare() does so too.
+  void clear() { pass_.clearResults(); }
+  /// Adds samples `begin` and following of a replicate, `count` of them, to every pixel.
+  FrameTimes addSamples(std::uint32_t begin, std::uint32_t count, std::uint32_t replicate = 0);
+  /// The sum over the samples, laid out as FrameRenderer::readRadiance().
   Image readSum() const;
-  Image readSquares() const;
   /// The sum over `count`, the number of samples that were added.
   Image readMean(std::uint32_t count) const;
   const Camera& camera() const { return pass_.camera(); }
@@ -38,16 +43,17 @@ class TruthRenderer {
 
 struct TruthImages {
   Image mean;            // RGBA as readRadiance gives it
-  Image standard_error;  // of the mean, RGB; from the samples' spread, which evenly spread samples
-                         // beat, so it is an upper bound
+  Image standard_error;  // of the mean, RGB, from the spread of replicates; 0 for one sample
 };
 
-/// Renders `view` with `spp` samples a pixel (1 to 2^20), in batches; `progress` gets the samples
-/// done after each, and an exception it throws ends the rendering. Of `options` only size and lanes
-/// count.
+/// Renders `view` with `spp` samples a pixel (1 to 2^20), shared out among kTruthReplicates
+/// replicates (fewer than so many: one sample each), in batches. `progress` gets the samples done
+/// after each, and an exception it throws ends the rendering; `replicates`, if given, their means.
+/// Of `options` only size and lanes count.
 TruthImages renderTruth(Device& device, const Scene& scene, const View& view,
                         const ShadingOptions& options, int spp,
                         const std::function<void(int done)>& progress = {}, int thread_count = 0,
-                        std::shared_ptr<NormalTextures> textures = nullptr);
+                        std::shared_ptr<NormalTextures> textures = nullptr,
+                        std::vector<Image>* replicates = nullptr);
 
 }  // namespace glintmark

@@ -13,6 +13,7 @@
 #include "host/reference/beckmann.h"
 #include "host/reference/light_cone.h"
 #include "host/reference/microfacet.h"
+#include "host/verify/check_frames.h"
 #include "host/verify/check_groups.h"
 
 namespace glintmark {
@@ -23,6 +24,8 @@ constexpr int kTruthSize_px = 12, kSpp = 1024;
 // lights are random and weighted, good to some 2 %, and worst of 144. The mean of all pixels has a
 // tenth of it, unless something is missing.
 constexpr double kPixelNoise = 0.04, kWeightedNoise = 0.1, kMeanNoise = 0.005;
+// A frame of one normal is exact, but for single precision and the sum over the lamp below.
+constexpr double kFrameNoise = 0.005;
 constexpr int kTruthDirections = 2000, kLightSteps = 48, kSubpixels = 12;
 
 glm::dvec3 rgbOf(const float4& v) {
@@ -222,6 +225,74 @@ Finding areaTruth(const CheckContext& context, bool ggx) {
   return finding;
 }
 
+// Normals that all lean away from the eye of lookingDown(), by 50 degrees.
+NormalMap leaningMap() {
+  NormalMap map;
+  map.name = "leaning";
+  map.width_px = map.height_px = 4;
+  const auto lean = static_cast<float>(50 * kDegree);
+  map.normals.assign(16, {0, std::sin(lean), std::cos(lean)});
+  return map;
+}
+
+// The diffuse light of a lamp that faces the normal `n`, floor's frame, point by point.
+double lambertOf(const AreaLight& lamp, const glm::dvec3& point, const glm::dvec3& n) {
+  const glm::dvec3 along_u = lamp.vertices[1] - lamp.vertices[0],
+                   along_v = lamp.vertices[3] - lamp.vertices[0];
+  double sum = 0;
+  for (int i = 0; i < kLightSteps; ++i)
+    for (int j = 0; j < kLightSteps; ++j) {
+      const glm::dvec3 d = lamp.vertices[0] + (i + 0.5) / kLightSteps * along_u +
+                           (j + 0.5) / kLightSteps * along_v - point;
+      const double facing = glm::dot(onFloor(d), n);
+      if (facing > 0)
+        sum += facing * std::abs(glm::dot(glm::cross(along_u, along_v), d)) /
+               std::pow(glm::length(d), 4);
+    }
+  return sum / (kPi * kLightSteps * kLightSteps);
+}
+
+// kernels/README.md, "Normals that turn away": from the eye, a normal mirrors nothing and scatters
+// diffuse light all the same; light reaches whichever normals face it, from behind the mesh too.
+// Frame and truth against Lambert's term alone.
+Finding turnedNormals(const CheckContext& context, bool behind_mesh, bool area) {
+  Scene scene = truthFloor();
+  SurfaceMaterial& surface = scene.materials[0].params.surface;
+  if (behind_mesh) surface.intensity = 0;
+  const NormalMap map = leaningMap();
+  const glm::dvec3 n = map.normals.front();
+  scene.materials[0].normal_map = {std::make_shared<const NormalMap>(map), 1};
+  AreaLight lamp;
+  const double low = behind_mesh ? -3.2 : 0.5;
+  lamp.vertices = {{-1, low, -5}, {1, low, -5}, {1, low + 2, -5}, {-1, low + 2, -5}};
+  lamp.radiance = {1, 2, 3};
+  lamp.two_sided = true;
+  const ConeLight sun = coneOver({0.2, behind_mesh ? -0.3 : 0.4, -1}, 0);
+  if (area)
+    scene.area_lights = {lamp};
+  else
+    scene.lights = {sun};
+  const View view = lookingDown(behind_mesh ? 60 : 20, 2);
+  const Radiance want = [&](const Camera& camera, double x, double y) {
+    const double light = area ? lambertOf(lamp, floorPoint(camera, x, y), n)
+                              : glm::dot(n, onFloor(glm::normalize(rgbOf(sun.direction)))) / kPi;
+    return light * rgbOf(surface.albedo) * (area ? lamp.radiance : rgbOf(sun.irradiance));
+  };
+  Finding finding(1);
+  compare(context, finding, scene, view, kWeightedNoise, want);
+  const ShadingOptions options{
+      .width_px = kTruthSize_px, .height_px = kTruthSize_px, .lanes = context.lanes};
+  const Image frame = checkFrame(context, scene, view, options);
+  const Camera camera = makeCamera(view, kTruthSize_px, kTruthSize_px);
+  for (int y = 0; y < kTruthSize_px; ++y)
+    for (int x = 0; x < kTruthSize_px; ++x)
+      for (int c = 0; c < 3; ++c)
+        finding.add(
+            std::abs(frame.at(x, y)[static_cast<std::size_t>(c)] / want(camera, x, y)[c] - 1) /
+            kFrameNoise);
+  return finding;
+}
+
 }  // namespace
 
 std::vector<Check> truthChecks() {
@@ -230,7 +301,15 @@ std::vector<Check> truthChecks() {
           {"truth/area_lights_ggx", "error in units of its bound",
            [](const CheckContext& context) { return areaTruth(context, true); }},
           {"truth/area_lights_beckmann", "error in units of its bound",
-           [](const CheckContext& context) { return areaTruth(context, false); }}};
+           [](const CheckContext& context) { return areaTruth(context, false); }},
+          {"truth/turned_from_eye", "error in units of its bound",
+           [](const CheckContext& context) { return turnedNormals(context, false, false); }},
+          {"truth/turned_from_eye_area", "error in units of its bound",
+           [](const CheckContext& context) { return turnedNormals(context, false, true); }},
+          {"truth/lights_behind_the_mesh", "error in units of its bound",
+           [](const CheckContext& context) { return turnedNormals(context, true, false); }},
+          {"truth/area_lights_behind_the_mesh", "error in units of its bound",
+           [](const CheckContext& context) { return turnedNormals(context, true, true); }}};
 }
 
 }  // namespace glintmark

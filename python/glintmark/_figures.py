@@ -69,8 +69,10 @@ def tradeoff(results, effect, axes=None):
     """Error over time of the settings of an effect in table `accuracy`, its Pareto front; returns the axes."""
     cases = {}
     for row in as_rows(results):
-        if row["table"] == "accuracy" and row["case"].startswith(effect + "/"):
-            cases.setdefault(row["case"][len(effect) + 1 :], {})[row["metric"]] = row["median"]
+        # What has more parts is of one scene, or one kind of pixels.
+        parts = row["case"].split("/")
+        if row["table"] == "accuracy" and len(parts) == 2 and parts[0] == effect:
+            cases.setdefault(parts[1], {})[row["metric"]] = row["median"]
     points = [
         (values["time_ratio"], values["error"], name)
         for name, values in cases.items()

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -178,19 +179,33 @@ TEST(Accuracy, KnobsOfGlintsHaveErrorsOfTheirOwn) {
 
 TEST(Accuracy, AreaLightsAndMonteCarlo) {
   const TempFolder folder;
-  const ProcessResult result =
-      runGlintmark(accuracyArguments(folder, "ltc",
-                                     {"--scene", "area_plane/front", "--width", "4", "--knob",
-                                      "horizon", "--knob", "edges", "--knob", "mc_samples"}));
+  const ProcessResult result = runGlintmark(
+      accuracyArguments(folder, "ltc",
+                        {"--scene", "area_plane/front", "--scene", "area_glass/middle", "--width",
+                         "4", "--knob", "horizon", "--knob", "edges", "--knob", "mc_samples"}));
   ASSERT_EQ(result.exit_code, 0) << result.err << result.out;
   auto errors = figuresOf(folder, "error");
-  EXPECT_EQ(errors.size(), 11u);
+  EXPECT_EQ(errors.size(), 3 * 11u) << "of both scenes together, and of each";
   for (const char* edges : {"acos", "rational"})
     EXPECT_NEAR(errors[std::string("ltc/edges=") + edges] / errors["ltc/edges=polynomial"], 1, 0.01)
         << edges;
   // The mean squared error of samples that the truth has not used goes with one over their number.
   EXPECT_NEAR(errors["ltc/mc_samples=4"] / errors["ltc/mc_samples=64"], 16, 6);
   EXPECT_GT(errors["ltc/mc_samples=1"], errors["ltc/mc_samples=4"]);
+  for (const char* samples : {"1", "64"}) {
+    const auto of = [&](const std::string& group) {
+      return errors[group + "/mc_samples=" + samples];
+    };
+    EXPECT_NEAR(std::pow(of("ltc"), 2) / (of("ltc/area_plane/front") * of("ltc/area_glass/middle")),
+                1, 1e-3);
+  }
+  // The more samples at the default's error, the longer: of one rival one figure in each group.
+  auto times = figuresOf(folder, "time_at_default_error");
+  EXPECT_EQ(times["ltc/mc_samples=1"], times["ltc/mc_samples=64"]);
+  EXPECT_GT(times["ltc/area_plane/front/mc_samples=64"], 0);
+  EXPECT_EQ(times["ltc/horizon=clipped"], 1);
+  EXPECT_NE(readFile(folder / "r/table.txt").find("For the default's error mc_samples takes"),
+            std::string::npos);
 }
 
 TEST(Accuracy, UnknownNamesListTheKnownOnes) {

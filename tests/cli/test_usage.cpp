@@ -31,6 +31,7 @@ TEST(Usage, HelpHasExamples) {
                                                 {"info", "--help"},
                                                 {"render", "--help"},
                                                 {"heatmap", "--help"},
+                                                {"export", "--help"},
                                                 {"bench", "--help"}}) {
     const ProcessResult result = runGlintmark(words);
     EXPECT_EQ(result.exit_code, 0) << words[0];
@@ -51,7 +52,7 @@ TEST(Usage, Version) {
 
 TEST(Usage, UnknownNamesListTheKnownOnes) {
   expectError({}, 2, {"no command", "render", "bench"});
-  expectError({"paint"}, 2, {"'paint'", "info, render, heatmap, bench"});
+  expectError({"paint"}, 2, {"'paint'", "info, render, heatmap, export, bench"});
   expectError({"render", "snow", "-o", "a.png", "--fast"}, 2, {"'--fast'", "--view", "--device"});
   expectError({"render", "snow", "sand", "-o", "a.png"}, 2, {"'sand'", "too many"});
   expectError({"render", "nowhere", "-o", "a.png"}, 2, {"nowhere", "screen_plane", "snow"});

@@ -145,18 +145,67 @@ TEST(Truth, BatchesAddUpToTheSameSamples) {
   EXPECT_LT(relativeDifference(render({5, 11}), render({16})), 1e-6);
 }
 
-TEST(Truth, StandardErrorCoversTheDistanceToAFinerTruth) {
+// Root mean square over the red of all covered pixels.
+template <typename Value>
+double rootMeanSquare(const TruthImages& truth, const Value& value) {
+  double sum = 0, count = 0;
+  for (std::size_t i = 0; i < truth.mean.pixels.size() / 4; ++i)
+    if (truth.mean.pixels[4 * i + 3] > 0) {
+      const double one = value(i);
+      sum += one * one;
+      ++count;
+    }
+  return std::sqrt(sum / count);
+}
+
+// Samples lie evenly, so their own spread says several times too much: only that of replicates says
+// how far the truth is from one that is known much better.
+TEST(Truth, StandardErrorIsTheDistanceToAFinerTruth) {
   const MappedFloor floor(bumps(64));
-  Device& device = testBench().device;
   const auto render = [&](int spp) {
-    return renderTruth(device, floor.scene, floor.view, floor.options, spp, {}, 1, floor.textures);
+    return renderTruth(testBench().device, floor.scene, floor.view, floor.options, spp, {}, 1,
+                       floor.textures);
   };
-  const TruthImages coarse = render(16), fine = render(512);
-  std::size_t far = 0, count = coarse.standard_error.pixels.size() / 3;
-  for (std::size_t i = 0; i < count; ++i)
-    far += std::abs(coarse.mean.pixels[4 * i] - fine.mean.pixels[4 * i]) >
-           3 * coarse.standard_error.pixels[3 * i] + 1e-5f;
-  EXPECT_LT(static_cast<double>(far), 0.02 * static_cast<double>(count));
+  const TruthImages fine = render(8192);
+  for (const int spp : {16, 64, 256}) {
+    const TruthImages coarse = render(spp);
+    const double stated = rootMeanSquare(
+                     coarse, [&](std::size_t i) { return coarse.standard_error.pixels[3 * i]; }),
+                 actual = rootMeanSquare(coarse, [&](std::size_t i) {
+                   return coarse.mean.pixels[4 * i] - fine.mean.pixels[4 * i];
+                 });
+    EXPECT_GT(stated / actual, 0.5) << spp;
+    EXPECT_LT(stated / actual, 2) << spp;
+  }
+}
+
+TEST(Truth, ReplicatesAreSharedOutAndOneSampleStatesNoError) {
+  const MappedFloor floor(bumps(32));
+  const auto replicates = [&](int spp, TruthImages& truth) {
+    std::vector<Image> means;
+    std::vector<int> done;
+    truth = renderTruth(
+        testBench().device, floor.scene, floor.view, floor.options, spp,
+        [&](int samples) { done.push_back(samples); }, 1, floor.textures, &means);
+    EXPECT_EQ(done.back(), spp);
+    return means;
+  };
+  TruthImages truth;
+  EXPECT_EQ(replicates(1, truth).size(), 1u);
+  EXPECT_EQ(
+      rootMeanSquare(truth, [&](std::size_t i) { return truth.standard_error.pixels[3 * i]; }), 0);
+  EXPECT_EQ(replicates(5, truth).size(), 5u);
+  // Ten samples: two replicates of two, six of one.
+  const std::vector<Image> means = replicates(10, truth);
+  ASSERT_EQ(means.size(), 8u);
+  Image mean = truth.mean;
+  for (std::size_t i = 0; i < mean.pixels.size(); ++i) {
+    double sum = 0;
+    for (std::size_t r = 0; r < means.size(); ++r) sum += (r < 2 ? 2 : 1) * means[r].pixels[i];
+    mean.pixels[i] = static_cast<float>(sum / 10);
+  }
+  EXPECT_LT(relativeDifference(truth.mean, mean), 1e-5);
+  EXPECT_GT(relativeDifference(means[0], means[1]), 1e-3) << "the same points twice";
 }
 
 // shade.cl after the preprocessor.

@@ -12,6 +12,7 @@
 #include "host/experiment/accuracy/accuracy_sweep.h"
 #include "host/experiment/accuracy/accuracy_table.h"
 #include "host/experiment/frame_timing.h"
+#include "host/experiment/frame_truth.h"
 #include "host/experiment/msbrdf/msbrdf_cases.h"
 #include "host/fit/lobe_fit.h"
 #include "host/report/metrics.h"
@@ -24,7 +25,9 @@ constexpr double kAlphas[] = {0.43, 0.8};
 constexpr int kThetas_deg[] = {0, 70};
 constexpr double kClay[] = {0.85, 0.55, 0.4};  // the facets' albedo, rough_plane's
 constexpr int kOrders = 6;
-constexpr std::uint32_t kTruthSeeds[] = {1001, 1002};
+// The truth is the mean of so many simulations, of kTruthRays / kTruthSimulations times --rays
+// each.
+constexpr std::uint32_t kFirstSimulationSeed = 1001, kTruthSimulations = 8, kTruthRays = 2;
 constexpr std::uint32_t kRivalSeed = 7;
 
 struct Model {
@@ -138,10 +141,11 @@ class MsbrdfSweep : public AccuracyEffect {
 
 std::string MsbrdfSweep::errorNote() const {
   return fmt::format(
-      "error: root mean square of the lobe's difference over its mean, albedo {}, against two "
-      "simulations of {} rays, geometric mean over roughness {} and incidence {} degrees; times of "
+      "error: root mean square of the lobe's difference over its mean, albedo {}, against "
+      "simulations of {} rays in all, geometric mean over roughness {} and incidence {} degrees; "
+      "times of "
       "models: {} at {}",
-      fmt::join(kClay, ", "), run_.options().rays, fmt::join(kAlphas, ", "),
+      fmt::join(kClay, ", "), run_.options().rays * kTruthRays, fmt::join(kAlphas, ", "),
       fmt::join(kThetas_deg, ", "), scene_, run_.options().size);
 }
 
@@ -181,14 +185,16 @@ const std::vector<MsbrdfSweep::Truth>& MsbrdfSweep::truths() {
   for (const double alpha : kAlphas)
     for (const int incidence_deg : kThetas_deg) {
       Truth truth{alpha, static_cast<double>(incidence_deg), {}, 0, ""};
-      truth.lobe =
-          simulate(alpha, incidence_deg, run_.options().rays, kTruthSeeds[0], truth.failure);
-      const Image other =
-          simulate(alpha, incidence_deg, run_.options().rays, kTruthSeeds[1], truth.failure);
-      for (std::size_t i = 0; i < other.pixels.size(); ++i)
-        truth.lobe.pixels[i] = (truth.lobe.pixels[i] + other.pixels[i]) / 2;
-      // The mean of two is half their difference off, as far as chance goes.
-      truth.standard_error = lobeDifference(other, truth.lobe);
+      std::vector<Image> lobes;
+      truth.lobe = Image(kCells, 1, 3);
+      for (std::uint32_t i = 0; i < kTruthSimulations; ++i) {
+        lobes.push_back(simulate(alpha, incidence_deg,
+                                 run_.options().rays * kTruthRays / kTruthSimulations,
+                                 kFirstSimulationSeed + i, truth.failure));
+        for (std::size_t k = 0; k < truth.lobe.pixels.size(); ++k)
+          truth.lobe.pixels[k] += lobes.back().pixels[k] / kTruthSimulations;
+      }
+      truth.standard_error = errorOfMean(truth.lobe, lobes, lobeDifference);
       truths_.push_back(std::move(truth));
     }
   return truths_;
@@ -251,7 +257,7 @@ std::vector<Record> MsbrdfSweep::measureRays(const std::string& case_name, std::
     all.push_back(figures(truth, lobe));
     if (!failure.empty()) all.back().failure = failure;
   }
-  return accuracyRecords(run_, case_name, kAccuracyRival, meanFigures(all), times,
+  return accuracyRecords(run_, case_name, kAccuracySampled, meanFigures(all), times,
                          {errorNote(),
                           "one simulation (of one incidence) over one frame of the default, in "
                           "turn"});

@@ -26,7 +26,8 @@ std::string accuracyEffectHtml(std::span<const Record> records, const std::strin
   std::vector<std::vector<std::string>> rows;
   std::vector<std::string> optimal;
   for (const std::string& case_name : caseNames(records)) {
-    if (CaseName::parse(case_name).word(0) != effect) continue;
+    const CaseName parts = CaseName::parse(case_name);
+    if (parts.words.size() != 1 || parts.word(0) != effect) continue;
     const CaseRecords one(records, case_name);
     if (one.find("time_ratio") == nullptr) continue;  // says more of a setting, is none
     const std::string setting = escapeHtml(CaseName::parse(case_name).rest().text());

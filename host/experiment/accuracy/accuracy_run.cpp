@@ -89,7 +89,12 @@ std::string headText(const BenchRun& run) {
       "faster\n"
       "and closer, where times and errors within {:.0f} % and errors below s.e. count as equal; "
       "variance\n"
-      "and motion: over the truth's; fit ratio: time before the first frame.\n\n",
+      "and motion: over the truth's; fit ratio: time before the first frame. Beside the default: "
+      "error in\n"
+      "its time, time over its time for its error, 1 / (mean square error x time) over its; what "
+      "is "
+      "not\n"
+      "sampled has one time and one error, and else never reaches them.\n\n",
       run.options().size, run.info().width, run.info().peak_gflops, run.info().device,
       100 * kAccuracyStep);
 }
@@ -131,7 +136,7 @@ int runAccuracy(const Session& session, const AccuracySelection& selection, Benc
     closer += effect->closerText(run.recordsOf(accuracySpec().name));
     if (const std::string left = effect->leftOut(); !left.empty()) left_out += "\n" + left + "\n";
   }
-  run.addDerived(accuracyPareto(run.recordsOf(accuracySpec().name)));
+  run.addDerived(accuracyDerived(run.recordsOf(accuracySpec().name)));
   const std::vector<Record> records = run.recordsOf(accuracySpec().name);
   return run.finish(headText(run) + accuracyTableText(records) + closer + left_out +
                     invalidText(records));

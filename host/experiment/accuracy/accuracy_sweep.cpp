@@ -94,49 +94,47 @@ std::vector<AccuracyStage>& AccuracySweep::stages() {
   return stages_;
 }
 
-AccuracyTimes AccuracySweep::measureTimes(const AccuracySetting& setting) {
-  std::vector<AccuracyTimes> times(stages().size());
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    if (setting.role == kAccuracyDefault) {
-      times[i].ms = timesInTurn(*standards_[i], *standards_[i], run_.options().reps).ms;
-      times[i].ratio.assign(times[i].ms.size(), 1);
-      continue;
-    }
-    ShadingOptions options = stages_[i].options();
-    setting.apply(options);
-    times[i] = timesInTurn(*standards_[i], *stages_[i].renderer(options), run_.options().reps);
+AccuracyTimes AccuracySweep::measureTimes(std::size_t index, const AccuracySetting& setting) {
+  FrameRenderer& standard = *standards_[index];
+  if (setting.role == kAccuracyDefault) {
+    AccuracyTimes times = timesInTurn(standard, standard, run_.options().reps);
+    times.ratio.assign(times.ms.size(), 1);
+    return times;
   }
-  return meanTimes(times);
+  ShadingOptions options = stages_[index].options();
+  setting.apply(options);
+  return timesInTurn(standard, *stages_[index].renderer(options), run_.options().reps);
 }
 
-AccuracyTimes AccuracySweep::measureSampledTimes(const AccuracySetting& setting) {
-  std::vector<AccuracyTimes> times(stages().size());
+AccuracyTimes AccuracySweep::measureSampledTimes(std::size_t index,
+                                                 const AccuracySetting& setting) {
+  AccuracyTimes times;
   const auto samples = static_cast<std::uint32_t>(setting.samples);
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    const auto sampled = stages_[i].sampler(stages_[i].options());
-    sampled->prepare();
-    sampled->addSamples(0, 1);  // compiles
-    double spent_ms = 0;
-    for (int rep = 0; rep < run_.options().reps && (rep == 0 || spent_ms < kLeastTime_ms); ++rep) {
-      const double standard_ms = shadeMs(*standards_[i]);
-      times[i].ms.push_back(sampled->addSamples(0, samples).shading_event_ns * kMsPerNs);
-      times[i].ratio.push_back(times[i].ms.back() / standard_ms);
-      spent_ms += times[i].ms.back();
-    }
+  const auto sampled = stages_[index].sampler(stages_[index].options());
+  sampled->prepare();
+  sampled->addSamples(0, 1);  // compiles
+  double spent_ms = 0;
+  for (int rep = 0; rep < run_.options().reps && (rep == 0 || spent_ms < kLeastTime_ms); ++rep) {
+    const double standard_ms = shadeMs(*standards_[index]);
+    times.ms.push_back(sampled->addSamples(0, samples).shading_event_ns * kMsPerNs);
+    times.ratio.push_back(times.ms.back() / standard_ms);
+    spent_ms += times.ms.back();
   }
-  return meanTimes(times);
+  return times;
 }
 
-AccuracySweep::Measured AccuracySweep::measureSetting(const AccuracySetting& setting) {
-  std::vector<AccuracyFigures> figures_of_stages;
+const std::vector<StageMeasured>& AccuracySweep::measuredStages(const AccuracySetting& setting) {
+  const std::string key = setting.role == kAccuracyDefault ? "" : setting.name;
+  if (const auto found = measured_.find(key); found != measured_.end()) return found->second;
+  std::vector<StageMeasured> all;
   for (std::size_t i = 0; i < stages().size(); ++i) {
     stopIfInterrupted();
-    figures_of_stages.push_back(figures(i, stages_[i], setting));
+    all.push_back({figures(i, stages_[i], setting), setting.samples > 0
+                                                        ? measureSampledTimes(i, setting)
+                                                        : measureTimes(i, setting)});
   }
-  Measured measured = {meanFigures(figures_of_stages),
-                       setting.samples > 0 ? measureSampledTimes(setting) : measureTimes(setting)};
-  measured.times.fit_ratio = fitRatios(stages_.front(), setting);
-  return measured;
+  all.front().times.fit_ratio = fitRatios(stages_.front(), setting);
+  return measured_.emplace(key, std::move(all)).first->second;
 }
 
 std::vector<Record> AccuracySweep::measure(const std::string& case_name) {
@@ -144,12 +142,19 @@ std::vector<Record> AccuracySweep::measure(const std::string& case_name) {
     return accuracyCase(effect_, one.name) == case_name;
   });
   if (setting == settings_.end()) throw Error(fmt::format("no case {}", case_name));
-  const bool is_default = setting->role == kAccuracyDefault;
-  if (is_default && !default_) default_ = measureSetting(*setting);
-  const Measured measured = is_default ? *default_ : measureSetting(*setting);
+  std::vector<AccuracyFigures> figures_of_stages;
+  std::vector<AccuracyTimes> times_of_stages;
+  for (const StageMeasured& stage : measuredStages(*setting)) {
+    figures_of_stages.push_back(stage.figures);
+    times_of_stages.push_back(stage.times);
+  }
+  AccuracyTimes times = meanTimes(times_of_stages);
+  times.fit_ratio = times_of_stages.front().fit_ratio;
   AccuracyNotes notes = notes_;
-  if (is_default) notes.time = "the default itself, measured once for all knobs";
-  return accuracyRecords(run_, case_name, setting->role, measured.figures, measured.times, notes);
+  if (setting->role == kAccuracyDefault)
+    notes.time = "the default itself, measured once for all knobs";
+  return accuracyRecords(run_, case_name, setting->role, meanFigures(figures_of_stages), times,
+                         notes);
 }
 
 }  // namespace glintmark

@@ -3,7 +3,6 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -57,6 +56,12 @@ class AccuracyStage {
 };
 
 /// Measures settings one after another: errors by the effect, times in turn with the default.
+/// A setting in one scene.
+struct StageMeasured {
+  AccuracyFigures figures;
+  AccuracyTimes times;
+};
+
 class AccuracySweep : public AccuracyEffect {
  public:
   /// `settings` hold at least one default.
@@ -67,6 +72,12 @@ class AccuracySweep : public AccuracyEffect {
   std::vector<Record> measure(const std::string& case_name) override;
 
  protected:
+  const std::vector<std::string>& scenes() const { return scenes_; }
+  const std::vector<AccuracySetting>& settings() const { return settings_; }
+  const std::string& effect() const { return effect_; }
+  BenchRun& run() const { return run_; }
+  /// Of every scene, in their order; measured once, the default once for all knobs.
+  const std::vector<StageMeasured>& measuredStages(const AccuracySetting& setting);
   /// Errors of a setting in stage `index`; called once per setting and stage.
   virtual AccuracyFigures figures(std::size_t index, const AccuracyStage& stage,
                                   const AccuracySetting& setting) = 0;
@@ -78,23 +89,18 @@ class AccuracySweep : public AccuracyEffect {
   }
 
  private:
-  struct Measured {
-    AccuracyFigures figures;
-    AccuracyTimes times;
-  };
   std::vector<AccuracyStage>& stages();
-  Measured measureSetting(const AccuracySetting& setting);
-  AccuracyTimes measureTimes(const AccuracySetting& setting);
-  AccuracyTimes measureSampledTimes(const AccuracySetting& setting);
+  AccuracyTimes measureTimes(std::size_t index, const AccuracySetting& setting);
+  AccuracyTimes measureSampledTimes(std::size_t index, const AccuracySetting& setting);
 
   BenchRun& run_;
   std::string effect_;
   std::vector<std::string> scenes_;
   std::vector<AccuracySetting> settings_;
   AccuracyNotes notes_;
-  std::vector<AccuracyStage> stages_;                      // loaded when first needed
-  std::vector<std::unique_ptr<FrameRenderer>> standards_;  // the default in every stage
-  std::optional<Measured> default_;                        // measured once for all knobs
+  std::vector<AccuracyStage> stages_;                           // loaded when first needed
+  std::vector<std::unique_ptr<FrameRenderer>> standards_;       // the default in every stage
+  std::map<std::string, std::vector<StageMeasured>> measured_;  // by setting, "" the default
 };
 
 }  // namespace glintmark

@@ -3,10 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <optional>
 
+#include "host/experiment/accuracy/accuracy_effect.h"
 #include "host/experiment/accuracy/accuracy_page.h"
+#include "host/experiment/accuracy/equal_cost.h"
 #include "host/experiment/accuracy/pareto.h"
 #include "host/report/record/case_name.h"
 #include "host/report/record/case_records.h"
@@ -15,85 +16,23 @@
 namespace glintmark {
 namespace {
 
-// One case: a setting of an effect.
-struct Setting {
-  std::string case_name, name;  // "glints/ka=16", "ka=16"
-  const Record* error = nullptr;
-  double time_ratio = 1, time_noise = 0;  // the median's standard error, twice
-  double truth_stderr = 0;
-  bool is_default = false;
-};
-
-struct Effect {
-  std::string name;
-  std::vector<Setting> settings;
-  std::vector<CostAndError> points;  // of the settings, as far as they can be told apart
-};
-
-// `value` in steps of kAccuracyStep from `anchor`; less than a step off, or than `noise`, is no
-// difference.
-double inSteps(double value, double anchor, double noise = 0) {
-  if (!(value > 0 && anchor > 0)) return value;
-  const double steps = std::log(value / anchor) / kAccuracyStep;
-  return std::abs(steps) < 1 || std::abs(value - anchor) < noise
-             ? anchor
-             : anchor * std::exp(std::round(steps) * kAccuracyStep);
-}
-
-// Not a number if the measurement is not valid: such a setting is neither better nor worse.
-double shownError(const Setting& setting) {
-  if (!setting.error->valid) return std::numeric_limits<double>::quiet_NaN();
-  return std::max(setting.error->value.median, setting.truth_stderr);
-}
-
-// The settings as far as what was measured can tell them from the default and from each other.
-std::vector<CostAndError> measuredPoints(std::span<const Setting> settings) {
-  const auto standard = std::ranges::find(settings, true, &Setting::is_default);
-  const Setting& anchor = standard == settings.end() ? settings.front() : *standard;
-  std::vector<CostAndError> points;
-  for (const Setting& setting : settings)
-    points.push_back({inSteps(setting.time_ratio, anchor.time_ratio, setting.time_noise),
-                      inSteps(shownError(setting), shownError(anchor))});
-  return points;
-}
-
-// Effects in the order of the records, each with its settings.
-std::vector<Effect> effectsOf(std::span<const Record> records) {
-  std::vector<Effect> effects;
-  for (const std::string& case_name : caseNames(records)) {
-    const CaseRecords one(records, case_name);
-    const Record *error = one.find("error"), *ratio = one.find("time_ratio");
-    if (error == nullptr || ratio == nullptr) continue;
-    const CaseName parts = CaseName::parse(case_name);
-    const std::string& name = parts.word(0);
-    if (effects.empty() || effects.back().name != name) effects.push_back({name, {}, {}});
-    const Record* truth = one.find("truth_stderr");
-    effects.back().settings.push_back({case_name, parts.rest().text(), error, ratio->value.median,
-                                       2 * medianStandardError(ratio->value),
-                                       truth == nullptr ? 0 : truth->value.median,
-                                       accuracyRole(*error) == kAccuracyDefault});
-  }
-  for (Effect& effect : effects) effect.points = measuredPoints(effect.settings);
-  return effects;
-}
-
 std::string timesText(double ratio) {
   return ratio < 10 ? fmt::format("{:.2f} times", ratio) : fmt::format("{:.0f} times", ratio);
 }
 
 // "takes 1.50 times the time for an error of 0.0123"
-std::string stepText(const Setting& to) {
+std::string stepText(const MeasuredSetting& to) {
   return fmt::format("{}, takes {} its time for an error of {}", to.name, timesText(to.time_ratio),
                      compactNumber(to.error->value.median));
 }
 
-std::string sentence(const Effect& effect) {
-  const auto found = std::ranges::find(effect.settings, true, &Setting::is_default);
-  if (found == effect.settings.end()) return "";
-  const auto at = static_cast<std::size_t>(found - effect.settings.begin());
-  const auto fastest =
-      static_cast<std::size_t>(std::ranges::min_element(effect.settings, {}, &Setting::time_ratio) -
-                               effect.settings.begin());
+std::string sentence(const SettingGroup& effect) {
+  const MeasuredSetting* found = effect.standard();
+  if (found == nullptr) return "";
+  const auto at = static_cast<std::size_t>(found - effect.settings.data());
+  const auto fastest = static_cast<std::size_t>(
+      std::ranges::min_element(effect.settings, {}, &MeasuredSetting::time_ratio) -
+      effect.settings.begin());
   std::string text = fmt::format("The default of {} has an error of {}", effect.name,
                                  compactNumber(found->error->value.median));
   if (effect.points[fastest].cost < effect.points[at].cost)
@@ -140,7 +79,7 @@ struct Column {
 constexpr std::string_view kOptimal = "pareto";  // told from the points, not from a record
 
 // All that the effect's records hold, but for the metric that is its error under another name.
-std::vector<Column> columnsOf(std::span<const Record> records, const Effect& effect) {
+std::vector<Column> columnsOf(std::span<const Record> records, const SettingGroup& effect) {
   constexpr Column kColumns[] = {{"time ratio", "time_ratio"},
                                  {"ms", "time_ms"},
                                  {"fit ratio", "fit_ratio"},
@@ -155,7 +94,7 @@ std::vector<Column> columnsOf(std::span<const Record> records, const Effect& eff
   std::vector<Column> columns;
   for (const Column& column : kColumns) {
     bool any = column.metric == kOptimal, another = column.metric == "error" || any;
-    for (const Setting& setting : effect.settings) {
+    for (const MeasuredSetting& setting : effect.settings) {
       const Record* record = CaseRecords(records, setting.case_name).find(column.metric);
       any = any || record != nullptr;
       another =
@@ -166,26 +105,54 @@ std::vector<Column> columnsOf(std::span<const Record> records, const Effect& eff
   return columns;
 }
 
-std::string effectText(std::span<const Record> records, const Effect& effect) {
+std::string markedName(const MeasuredSetting& setting) {
+  if (setting.role == kAccuracyDefault) return setting.name + " *";
+  const bool rival = setting.role == kAccuracyRival || setting.role == kAccuracySampled;
+  return setting.name + (rival ? " (rival)" : "");
+}
+
+std::string orNever(const std::optional<double>& value) {
+  return value ? compactNumber(*value) : "never";
+}
+
+// Sampled rivals once, whatever the number of samples.
+std::string equalText(const SettingGroup& effect) {
+  const std::vector<EqualCost> costs = equalCosts(effect);
+  if (costs.empty() || effect.settings.size() < 2) return "";
+  TextTable table({"beside the default", "error in its time", "time for its error", "efficiency"});
+  std::vector<std::string> sampled;
+  for (std::size_t i = 0; i < costs.size(); ++i) {
+    const MeasuredSetting& setting = effect.settings[i];
+    std::string name = markedName(setting);
+    if (setting.role == kAccuracyDefault && &setting != effect.standard()) continue;
+    if (setting.role == kAccuracySampled) {
+      name = knobOf(setting.name) + " (rival)";
+      if (std::ranges::find(sampled, name) != sampled.end()) continue;
+      sampled.push_back(name);
+    }
+    table.addRow({name, orNever(costs[i].error_at_time), orNever(costs[i].time_at_error),
+                  costs[i].efficiency ? compactNumber(*costs[i].efficiency) : "-"});
+  }
+  return "\n" + table.toString();
+}
+
+std::string effectText(std::span<const Record> records, const SettingGroup& effect) {
   const std::vector<Column> columns = columnsOf(records, effect);
   std::vector<std::string> header = {effect.name};
   for (const Column& column : columns) header.push_back(column.name);
   TextTable table(header);
   const std::vector<bool> optimal = paretoOptimal(effect.points);
   for (std::size_t i = 0; i < effect.settings.size(); ++i) {
-    const Setting& setting = effect.settings[i];
+    const MeasuredSetting& setting = effect.settings[i];
     const CaseRecords one(records, setting.case_name);
-    const std::string role = accuracyRole(*setting.error);
-    std::vector<std::string> row = {setting.name + (role == kAccuracyDefault ? " *"
-                                                    : role == kAccuracyRival ? " (rival)"
-                                                                             : "")};
+    std::vector<std::string> row = {markedName(setting)};
     for (const Column& column : columns)
       row.push_back(column.metric == kOptimal ? (optimal[i] ? "yes" : "")
                                               : one.text(column.metric));
     table.addRow(row);
   }
   return table.toString() + wrapped(effect.settings.front().error->note) + "\n" +
-         wrapped(sentence(effect)) + "\n";
+         wrapped(sentence(effect)) + "\n" + equalText(effect);
 }
 
 }  // namespace
@@ -216,6 +183,16 @@ const TableSpec& accuracySpec() {
             "what is not `valid` neither wins nor beats. Not in `records.jsonl`: it follows from "
             "the "
             "rest"},
+           {"error_at_default_time", "1", "",
+            "`error` in the default's time: of a sampled rival along its measured numbers of "
+            "samples, of others their own if they take no longer. A setting without the record "
+            "never does. This and the next two are not in `records.jsonl`; scenes have them too"},
+           {"time_at_default_error", "1", "",
+            "time over the default's for the default's `error`, likewise: of a sampled rival along "
+            "its curve, extrapolated as it falls last; of others their own if they err no more"},
+           {"efficiency", "1", "",
+            "1 / (mean squared error × time), over the default's; the mean squared error is "
+            "`rel_mse`, of glints the square of `error`"},
            {"bias", "1", "bias of the mean",
             "relative bias of the mean, relative mean squared error, distance of display colours"},
            {"rel_mse", "1", "relMSE"},
@@ -264,27 +241,35 @@ const TableSpec& accuracySpec() {
   return spec;
 }
 
-std::string accuracyRole(const Record& record) {
-  const auto role = record.config.find("role");
-  return role == record.config.end() ? "" : role->second;
-}
-
 std::string accuracySentence(std::span<const Record> records, const std::string& effect) {
-  const std::vector<Effect> effects = effectsOf(records);
-  const auto found = std::ranges::find(effects, effect, &Effect::name);
-  return found == effects.end() ? "" : sentence(*found);
+  const std::vector<SettingGroup> groups = settingGroups(records);
+  const auto found = std::ranges::find(groups, effect, &SettingGroup::name);
+  return found == groups.end() ? "" : sentence(*found);
 }
 
-std::vector<Record> accuracyPareto(std::span<const Record> records) {
+std::vector<Record> accuracyDerived(std::span<const Record> records) {
   std::vector<Record> made;
-  for (const Effect& effect : effectsOf(records)) {
-    const std::vector<bool> optimal = paretoOptimal(effect.points);
-    for (std::size_t i = 0; i < effect.settings.size(); ++i) {
-      Record record = *effect.settings[i].error;
-      record.metric = "pareto";
-      record.value = summarize(std::vector<double>{optimal[i] ? 1.0 : 0.0});
-      record.note = record.valid ? "1: no other setting is both faster and closer" : record.note;
-      made.push_back(std::move(record));
+  const auto add = [&](const MeasuredSetting& setting, const char* metric, double value,
+                       const std::string& note) {
+    Record record = *setting.error;
+    record.metric = metric;
+    record.value = summarize(std::vector<double>{value});
+    if (record.valid) record.note = note;
+    made.push_back(std::move(record));
+  };
+  for (const SettingGroup& group : settingGroups(records)) {
+    const std::vector<bool> optimal = paretoOptimal(group.points);
+    const std::vector<EqualCost> costs = equalCosts(group);
+    for (std::size_t i = 0; i < group.settings.size(); ++i) {
+      const MeasuredSetting& setting = group.settings[i];
+      if (group.isEffect())
+        add(setting, "pareto", optimal[i] ? 1.0 : 0.0,
+            "1: no other setting is both faster and closer");
+      if (costs.empty()) continue;
+      const EqualCost& cost = costs[i];
+      if (cost.error_at_time) add(setting, "error_at_default_time", *cost.error_at_time, cost.how);
+      if (cost.time_at_error) add(setting, "time_at_default_error", *cost.time_at_error, cost.how);
+      if (cost.efficiency) add(setting, "efficiency", *cost.efficiency, "over the default's");
     }
   }
   return made;
@@ -292,8 +277,9 @@ std::vector<Record> accuracyPareto(std::span<const Record> records) {
 
 std::string accuracyTableText(std::span<const Record> records) {
   std::string text;
-  for (const Effect& effect : effectsOf(records))
-    text += fmt::format("{}{}", text.empty() ? "" : "\n", effectText(records, effect));
+  for (const SettingGroup& group : settingGroups(records))
+    if (group.isEffect())
+      text += fmt::format("{}{}", text.empty() ? "" : "\n", effectText(records, group));
   return text;
 }
 

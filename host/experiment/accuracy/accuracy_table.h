@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "host/experiment/accuracy/accuracy_settings.h"
 #include "host/report/record/table_spec.h"
 
 namespace glintmark {
@@ -11,27 +12,17 @@ namespace glintmark {
 /// Table "accuracy": names, metrics, what the page shows.
 const TableSpec& accuracySpec();
 
-/// Part that a case plays, in its records' configuration under "role".
-inline constexpr const char* kAccuracyDefault = "default";
-inline constexpr const char* kAccuracyKnob = "knob";
-inline constexpr const char* kAccuracyRival = "rival";
-/// Empty if the record says none.
-std::string accuracyRole(const Record& record);
-
-/// A record `pareto` (0 or 1) of every case that has `error` and `time_ratio`, each effect apart.
-/// A setting whose error is not valid is never optimal and stands in nobody's way. Differences that
-/// were not measured count for nothing: errors below the truth's own standard error are equal,
-/// times within two standard errors of their median are the default's, and errors and times go in
-/// steps of kAccuracyStep from the default's.
-std::vector<Record> accuracyPareto(std::span<const Record> records);
-inline constexpr double kAccuracyStep = 0.05;
+/// Of every case that has `error` and `time_ratio`: a record `pareto` (0 or 1), each effect apart;
+/// and, each scene apart too, what equalCosts() gives. A setting whose error is not valid is never
+/// optimal and stands in nobody's way; what was not measured decides nothing (SettingGroup).
+std::vector<Record> accuracyDerived(std::span<const Record> records);
 
 /// What the default of an effect buys, and what the next optimal step up or down would cost; empty
 /// if the records have no default of it.
 std::string accuracySentence(std::span<const Record> records, const std::string& effect);
 
-/// One table for each effect, at most kTableColumnsLimit columns, with its sentence
-/// below it.
+/// Two tables for each effect, at most kTableColumnsLimit columns, with its sentence between them:
+/// the settings, and what they are at the default's time and error.
 std::string accuracyTableText(std::span<const Record> records);
 
 }  // namespace glintmark

@@ -5,12 +5,16 @@
 
 #include <algorithm>
 
+#include "host/experiment/accuracy/scene_table.h"
 #include "host/experiment/frame_truth.h"
 #include "host/report/metrics.h"
 #include "host/report/picture/tonemap.h"
 
 namespace glintmark {
 namespace {
+
+constexpr const char* kSampledTimeNote =
+    "kernel events at the command line's size, in turn with the default";
 
 double principal(PrincipalMetric metric, const Image& row, const Image& truth, double exposure) {
   if (metric == PrincipalMetric::kRelMse) return relMse(row, truth);
@@ -19,21 +23,46 @@ double principal(PrincipalMetric metric, const Image& row, const Image& truth, d
 
 }  // namespace
 
-std::string sampledTruthNote(const BenchRun& run, const SampledTruthSettings& settings,
-                             const std::vector<std::string>& scenes) {
+std::string sampledTruthNote(const BenchRun& run, const SampledTruthSettings& settings) {
   const ImageSize size = truthSize(run, settings.width_px);
-  return fmt::format("error: {} at {}x{} against {} samples a pixel, geometric mean over {}",
+  return fmt::format("error: {} at {}x{} against {} samples a pixel",
                      settings.metric == PrincipalMetric::kRelMse ? "relMSE" : "colour error",
-                     size.width_px, size.height_px, settings.spp, fmt::join(scenes, ", "));
+                     size.width_px, size.height_px, settings.spp);
 }
 
 SampledSweep::SampledSweep(BenchRun& run, const std::string& effect,
                            const std::vector<std::string>& scenes,
                            std::vector<AccuracySetting> settings, const SampledTruthSettings& truth)
     : AccuracySweep(run, effect, scenes, std::move(settings),
-                    {sampledTruthNote(run, truth, scenes),
-                     "kernel events at the command line's size, in turn with the default"}),
+                    {fmt::format("{}, geometric mean over {}", sampledTruthNote(run, truth),
+                                 fmt::join(scenes, ", ")),
+                     kSampledTimeNote}),
       settings_(truth) {}
+
+std::vector<std::string> SampledSweep::closerCases() const {
+  std::vector<std::string> cases;
+  if (scenes().size() < 2) return cases;
+  for (const std::string& scene : scenes())
+    for (const AccuracySetting& setting : settings())
+      cases.push_back(accuracyCase(effect() + "/" + scene, setting.name));
+  return cases;
+}
+
+std::vector<Record> SampledSweep::measureCloser(const std::string& case_name) {
+  for (std::size_t i = 0; i < scenes().size(); ++i)
+    for (const AccuracySetting& setting : settings())
+      if (accuracyCase(effect() + "/" + scenes()[i], setting.name) == case_name) {
+        StageMeasured measured = measuredStages(setting)[i];
+        measured.times.fit_ratio.clear();  // stands with the setting's case
+        return accuracyRecords(run(), case_name, setting.role, measured.figures, measured.times,
+                               {sampledTruthNote(run(), settings_), kSampledTimeNote});
+      }
+  return AccuracySweep::measureCloser(case_name);
+}
+
+std::string SampledSweep::closerText(std::span<const Record> records) const {
+  return accuracySceneText(records, effect());
+}
 
 ShadingOptions SampledSweep::truthOptions(const AccuracyStage& stage) const {
   const ImageSize size = truthSize(stage.run(), settings_.width_px);
@@ -46,15 +75,17 @@ ShadingOptions SampledSweep::truthOptions(const AccuracyStage& stage) const {
 const SampledSweep::Truth& SampledSweep::truth(std::size_t index, const AccuracyStage& stage) {
   const auto found = truths_.find(index);
   if (found != truths_.end()) return found->second;
-  const TruthImages images = truthOf(stage.run(), stage.scene(), stage.view(), truthOptions(stage),
-                                     settings_.spp, stage.textures());
-  const Image off = oneErrorOff(images);
+  const ReplicatedTruth truth = truthOf(stage.run(), stage.scene(), stage.view(),
+                                        truthOptions(stage), settings_.spp, stage.textures());
   Truth made;
-  made.row = coveredPixels(images.mean);
-  made.sane = isSane(images.mean) && isSane(off) && !made.row.pixels.empty();
+  made.row = coveredPixels(truth.images.mean);
+  made.sane = std::ranges::all_of(truth.replicates, isSane) && !made.row.pixels.empty();
   if (made.sane)
     made.standard_error =
-        principal(settings_.metric, coveredPixels(off), made.row, stage.scene().post.exposure);
+        errorOfMean(truth.images.mean, truth.replicates, [&](const Image& off, const Image& mean) {
+          return principal(settings_.metric, coveredPixels(off), coveredPixels(mean),
+                           stage.scene().post.exposure);
+        });
   return truths_.emplace(index, std::move(made)).first->second;
 }
 
@@ -64,8 +95,7 @@ Image SampledSweep::image(const AccuracyStage& stage, const AccuracySetting& set
     if (setting.apply) setting.apply(options);
     return stage.renderer(options)->readRadiance();
   }
-  // Samples that the truth has not used.
-  return sampleFrame(*stage.sampler(options), settings_.spp, setting.samples).mean;
+  return sampleFrame(*stage.sampler(options), setting.samples).mean;
 }
 
 AccuracyFigures SampledSweep::figures(std::size_t index, const AccuracyStage& stage,

@@ -13,14 +13,18 @@ struct SampledTruthSettings {
   int spp = 1024;
 };
 
-/// "relMSE at 320x180 against 1024 samples a pixel, mean over area_knot/middle, ..."
-std::string sampledTruthNote(const BenchRun& run, const SampledTruthSettings& settings,
-                             const std::vector<std::string>& scenes);
+/// "error: relMSE at 320x180 against 1024 samples a pixel"
+std::string sampledTruthNote(const BenchRun& run, const SampledTruthSettings& settings);
 
 class SampledSweep : public AccuracySweep {
  public:
   SampledSweep(BenchRun& run, const std::string& effect, const std::vector<std::string>& scenes,
                std::vector<AccuracySetting> settings, const SampledTruthSettings& truth);
+
+  /// Every setting in every scene, "ltc/area_cloth/near/edges=acos"; none if there is one scene.
+  std::vector<std::string> closerCases() const override;
+  std::vector<Record> measureCloser(const std::string& case_name) override;
+  std::string closerText(std::span<const Record> records) const override;
 
  protected:
   AccuracyFigures figures(std::size_t index, const AccuracyStage& stage,
@@ -35,7 +39,7 @@ class SampledSweep : public AccuracySweep {
   const Truth& truth(std::size_t index, const AccuracyStage& stage);
   // The defaults at the truth's size.
   ShadingOptions truthOptions(const AccuracyStage& stage) const;
-  // The frame by a setting: shaded, or sampled by samples that the truth has not used.
+  // The frame by a setting: shaded, or sampled by a replicate that the truth has not used.
   Image image(const AccuracyStage& stage, const AccuracySetting& setting) const;
 
   SampledTruthSettings settings_;

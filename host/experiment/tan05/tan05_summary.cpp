@@ -112,7 +112,7 @@ std::vector<Record> measureTan05Knob(BenchRun& run, const Tan05Scene& scene,
   Tan05Settings settings = tan05Settings(run);
   settings.shading = turned(settings.shading, name);
   const TruthImages truth =
-      truthOf(run, scene.scene, view, settings.shading, settings.truth_spp, scene.textures);
+      truthOf(run, scene.scene, view, settings.shading, settings.truth_spp, scene.textures).images;
   const auto small = preparedFrame(run, scene.scene, view, settings.shading, scene.textures);
   const auto display = [&](const Image& image) {
     return toneMap(coveredPixels(image), {.exposure = scene.scene.post.exposure});

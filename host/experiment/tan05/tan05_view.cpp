@@ -36,12 +36,13 @@ struct Truth {
 
 Truth measureTruth(BenchRun& run, const Tan05Scene& scene, const View& view,
                    const Tan05Settings& settings) {
-  TruthImages images =
+  ReplicatedTruth truth =
       truthOf(run, scene.scene, view, settings.shading, settings.truth_spp, scene.textures);
-  const Image off = oneErrorOff(images);
   const double error =
-      colourError(coveredDisplay(off, scene.scene), coveredDisplay(images.mean, scene.scene));
-  return {std::move(images.mean), error};
+      errorOfMean(truth.images.mean, truth.replicates, [&](const Image& off, const Image& mean) {
+        return colourError(coveredDisplay(off, scene.scene), coveredDisplay(mean, scene.scene));
+      });
+  return {std::move(truth.images.mean), error};
 }
 
 std::unique_ptr<FrameRenderer> methodFrame(BenchRun& run, const Tan05Scene& scene, const View& view,

@@ -49,7 +49,7 @@ EqualError monteCarloAtEqualError(BenchRun& run, const Scene& scene) {
   const Tao21Settings settings = tao21Settings(run);
   const View& view = scene.view("middle");
   const Image truth_row =
-      coveredPixels(truthOf(run, scene, view, settings.errors, settings.truth_spp).mean);
+      coveredPixels(truthOf(run, scene, view, settings.errors, settings.truth_spp).images.mean);
   const auto ltc = preparedFrame(run, scene, view, settings.errors);
   const double ltc_error = relMse(coveredPixels(ltc->readRadiance()), truth_row);
 
@@ -58,8 +58,7 @@ EqualError monteCarloAtEqualError(BenchRun& run, const Scene& scene) {
   double last_error = 0;
   for (int spp = 1; spp <= kMostMonteCarloSpp; spp *= 2) {
     stopIfInterrupted();
-    // Samples that the truth has not used.
-    const SampledFrame frame = sampleFrame(monte_carlo, settings.truth_spp, spp);
+    const SampledFrame frame = sampleFrame(monte_carlo, spp);
     const double error = relMse(coveredPixels(frame.mean), truth_row);
     result.spp = spp;
     result.time_ratio = frame.shading_ms / shadeMs(*ltc);

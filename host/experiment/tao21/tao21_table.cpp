@@ -45,7 +45,10 @@ const TableSpec& tao21Spec() {
            {"colour_error", "1", "colour error"},
            {"bias", "1", "bias of the mean"},
            {"truth_stderr", "1", "standard error of the truth",
-            "of the truth, mean over pixels, over the mean radiance", "`scene/view/method`"},
+            "what the truth itself may be off, as a relMSE; of older runs the mean over pixels "
+            "over "
+            "the mean radiance",
+            "`scene/view/method`"},
            {"multiscale_over_original", "1", "multi-scale over original, time",
             "method `exact` over `original`, `area_knot/near`, in turn", "`all`"},
            {"tao21_over_original", "1", "the paper's polynomials over original, time",

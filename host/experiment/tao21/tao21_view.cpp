@@ -36,12 +36,6 @@ Image display(const Image& radiance, double exposure) {
   return toneMap(radiance, {.exposure = exposure});
 }
 
-double meanOf(const Image& image) {
-  double sum = 0;
-  for (const float value : image.pixels) sum += value;
-  return image.pixels.empty() ? 0 : sum / static_cast<double>(image.pixels.size());
-}
-
 }  // namespace
 
 Tao21Settings tao21Settings(const BenchRun& run) {
@@ -70,11 +64,16 @@ Tao21View measureTao21View(BenchRun& run, const Scene& scene, const View& view,
   const Tao21Settings settings = tao21Settings(run);
   const std::vector<Samples> times_ms = measureTimes(run, scene, view, settings);
   const ShadingOptions& small = settings.errors;
-  const TruthImages truth = truthOf(run, scene, view, small, settings.truth_spp);
-  const Image truth_row = coveredPixels(truth.mean);
-  const double truth_mean = meanOf(truth_row);
+  const ReplicatedTruth truth = truthOf(run, scene, view, small, settings.truth_spp);
+  const Image& truth_image = truth.images.mean;
+  const Image truth_row = coveredPixels(truth_image);
+  const bool truth_sane = isSane(truth_image) && !truth_row.pixels.empty();
   const double standard_error =
-      truth_mean > 0 ? meanOf(coveredPixels(truth.standard_error, truth.mean)) / truth_mean : 0;
+      truth_sane ? errorOfMean(truth_image, truth.replicates,
+                               [](const Image& off, const Image& mean) {
+                                 return relMse(coveredPixels(off), coveredPixels(mean));
+                               })
+                 : 0;
 
   Tao21View result;
   std::vector<std::pair<std::string, Image>> pictures;
@@ -85,7 +84,7 @@ Tao21View measureTao21View(BenchRun& run, const Scene& scene, const View& view,
     const std::string method(kTao21Methods[static_cast<std::size_t>(m)]);
     const Image image = preparedFrame(run, scene, view, methodOptions(small, m))->readRadiance();
     const Image row = coveredPixels(image);
-    const bool sane = isSane(image) && isSane(truth.mean) && !truth_row.pixels.empty();
+    const bool sane = isSane(image) && truth_sane;
     const std::string name = tao21Case(view_name, method).text();
     std::vector<Record>& records = result.records[method];
     const auto add = [&](const char* metric, const Samples& samples, const std::string& note) {
@@ -99,10 +98,10 @@ Tao21View measureTao21View(BenchRun& run, const Scene& scene, const View& view,
     add("colour_error",
         {sane ? colourError(display(row, exposure), display(truth_row, exposure)) : 0}, size);
     add("bias", {sane ? relativeBias(row, truth_row) : 0}, "of the mean radiance");
-    add("truth_stderr", {standard_error}, "mean over the mean radiance");
+    add("truth_stderr", {standard_error}, "as a relMSE");
     pictures.emplace_back(method, display(image, exposure));
   }
-  pictures.emplace_back("truth", display(truth.mean, exposure));
+  pictures.emplace_back("truth", display(truth_image, exposure));
   result.picture = pictureStrip(pictures);
   return result;
 }

@@ -102,6 +102,7 @@
     for (const r of records) {
       if (r.table !== table || !r.case.startsWith(prefix)) continue;
       const name = r.case.slice(prefix.length);
+      if (name.includes("/")) continue; // of one scene, or one kind of pixels
       if (!points.has(name)) points.set(name, { name, knob: name.split("=")[0] });
       const point = points.get(name);
       point[r.metric] = r.median;
@@ -124,7 +125,7 @@
     }];
     knobs.forEach((knob, i) => {
       const data = all.filter((p) => p.knob === knob);
-      const rival = data.some((p) => p.role === "rival");
+      const rival = data.some((p) => p.role === "rival" || p.role === "sampled");
       const inOrder = data.length > 2 && data.every((p) => Number.isFinite(Number(p.name.slice(knob.length + 1))));
       datasets.push({
         label: rival ? `${knob} (rival)` : knob, data, showLine: inOrder, borderWidth: 1.5,
