@@ -49,8 +49,10 @@ double microfacetTimesCosine(Ndf ndf, const glm::dvec3& i, const glm::dvec3& o, 
   if (o.z < 0 || (i.z <= 0 && ndf != Ndf::kNormals)) return 0;
   const glm::dvec3 sum = i + o;
   const glm::dvec3 m = sum / std::sqrt(glm::dot(sum, sum));
-  if (ndf == Ndf::kNormals)
-    return m.z > 0 ? microfacetDensity(ndf, m, alpha) * m.z / (4 * glm::dot(o, m)) : 0;
+  if (ndf == Ndf::kNormals) {
+    const double density = microfacetDensity(ndf, m, alpha);  // no number where it underflows
+    return density > 0 ? density * m.z / (4 * glm::dot(o, m)) : 0;
+  }
   // G2 / o.z = i.z / (i.z o.z + i.z L(o) o.z + o.z L(i) i.z), finite for a grazing view.
   const double lambda_o = lambdaTimesCosine(ndf, o, alpha, form);
   const double lambda_i = lambdaTimesCosine(ndf, i, alpha, form);
