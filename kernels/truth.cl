@@ -10,6 +10,7 @@
 #include "area/area_light_truth.clh"
 #endif
 #if CONE_LIGHTS
+#include "diffuse_layer.clh"
 #include "glint/cone_light.clh"
 #include "wide/wide_trig.clh"
 #endif
@@ -126,6 +127,11 @@ WIDE vfloat3 shadeSample(const SurfaceSample* sample, constant const FrameParams
                          constant const MaterialParams* material,
                          constant const LightParams* lights) {
   const vfloat3 ratio = {(vfloat)(1.0f), (vfloat)(1.0f), (vfloat)(1.0f)};
+  vfloat3 share = {(vfloat)(1.0f), (vfloat)(1.0f), (vfloat)(1.0f)};
+#if ALBEDO_SCALING
+  share = diffuseShare(lobeAlbedo(sample->view.z, &material->surface), (vfloat)(0.0f),
+                       &material->surface);
+#endif
   const SmithLambda lambda_view = smithLambda(sample->view, material->surface.alpha_g);
   vfloat3 sum = {(vfloat)(0.0f), (vfloat)(0.0f), (vfloat)(0.0f)};
   for (uint i = 0; i < frame->light_count; ++i) {
@@ -133,7 +139,7 @@ WIDE vfloat3 shadeSample(const SurfaceSample* sample, constant const FrameParams
     LightLobe lobe = pointLobe(light, sample->view, lambda_view, material);
     lobe.specular = sample->visible ? lobe.specular : (vfloat)(0.0f);
     lobe.schlick = sample->visible ? lobe.schlick : (vfloat)(0.0f);
-    addLight(lobe, ratio, &material->surface, &lights[i], &sum);
+    addLight(lobe, ratio, share, &material->surface, &lights[i], &sum);
   }
   return sum;
 }

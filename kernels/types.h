@@ -12,6 +12,9 @@
 // any lane count never reads past the end and needs no tail code.
 #define GM_LIST_PADDING 64u
 
+// Coefficients of a polynomial of the view's cosine, lowest power first.
+#define GM_ALBEDO_DEGREES 8
+
 // What every material has: its smooth lobe and what lies under it.
 typedef struct SurfaceMaterial {
   float2 alpha_g;   // global roughness along u and v, (0, 1]
@@ -19,6 +22,13 @@ typedef struct SurfaceMaterial {
   uint effects;     // EFFECT_* bits of config.clh; read by ALL_MATERIALS programs only
   float4 f0;        // rgb reflectance at normal incidence; w unused
   float4 albedo;    // rgb diffuse albedo; w unused
+  // Of ALBEDO_SCALING programs: what the lobe reflects at f0 = 1, by the cosine t warped so that it
+  // falls within cosines of the size of the roughness, t = mu (1 + s) / (mu + s) with s =
+  // albedo_warp; and the share of that which Schlick's (1 - o.h)^5 leaves, by mu.
+  float mirror_albedo[GM_ALBEDO_DEGREES];
+  float schlick_share[GM_ALBEDO_DEGREES];
+  float albedo_warp;
+  float reserved[3];  // 0
 } SurfaceMaterial;
 
 // Microdetails of one material, in the paper's user parameters made absolute. [ZK16] Sect. 4.5

@@ -12,7 +12,7 @@ namespace glintmark {
 std::uint64_t freeMemoryBytes(const std::filesystem::path& root = "/");
 
 /// Throws Error if less than `bytes` are free; `what` begins the sentence, for example the name of
-/// the file that asks for them.
+/// the file that asks for them. A few megabytes are always taken to be there.
 void requireMemory(std::uint64_t bytes, const std::string& what);
 
 }  // namespace glintmark

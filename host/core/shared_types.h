@@ -17,9 +17,9 @@ struct alignas(16) float4 {
 #include "kernels/types.h"
 
 static_assert(sizeof(float2) == 8 && sizeof(float4) == 16);
-static_assert(sizeof(SurfaceMaterial) == 48);
+static_assert(sizeof(SurfaceMaterial) == 128);
 static_assert(sizeof(GlintMaterial) == 160);
-static_assert(sizeof(MaterialParams) == 208);
+static_assert(sizeof(MaterialParams) == 288);
 static_assert(sizeof(ConeLight) == 32);
 static_assert(sizeof(LightParams) == 48);
 static_assert(sizeof(FrameParams) == 80);

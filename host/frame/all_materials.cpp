@@ -4,18 +4,25 @@
 
 #include "host/core/glint_grids.h"
 #include "host/frame/effects.h"
-#include "host/ocl/kernel_config.h"
+#include "host/frame/specular_albedo.h"
 #include "host/ocl/upload.h"
 #include "host/raster/projection.h"
 
 namespace glintmark {
 
+MaterialParams preparedMaterial(const Material& material, const KernelConfig& config) {
+  MaterialParams params = withGlintGrids(material.params);
+  if (config.albedo_scaling) setSpecularAlbedo(params.surface, material.ggx);
+  return params;
+}
+
 Buffer uploadMaterials(Device& device, const Scene& scene, const ShadingOptions& options,
                        int lanes) {
   std::vector<MaterialParams> materials;
   for (const Material& material : scene.materials) {
-    materials.push_back(withGlintGrids(material.params));
-    materials.back().surface.effects = effectBits(configFor(material, scene, options, lanes));
+    const KernelConfig config = configFor(material, scene, options, lanes);
+    materials.push_back(preparedMaterial(material, config));
+    materials.back().surface.effects = effectBits(config);
   }
   return upload(device, materials, BufferPurpose::kMaterials);
 }

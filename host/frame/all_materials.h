@@ -7,9 +7,13 @@
 #include "host/core/planes.h"
 #include "host/frame/shading_options.h"
 #include "host/ocl/compute.h"
+#include "host/ocl/kernel_config.h"
 #include "host/scene/scene.h"
 
 namespace glintmark {
+
+/// One material as a program of `config` reads it: grids of glints and albedos set from the rest.
+MaterialParams preparedMaterial(const Material& material, const KernelConfig& config);
 
 /// The materials of the scene as an array, each with the effects of its own program.
 Buffer uploadMaterials(Device& device, const Scene& scene, const ShadingOptions& options,

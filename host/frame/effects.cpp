@@ -20,6 +20,7 @@ KernelConfig chosenConfig(const ProgramCall& call, int lanes) {
       call.scene.lights, [](const ConeLight& light) { return light.direction.w > 0; });
   config.ggx = call.material.ggx;
   config.diffuse = albedo.x > 0 || albedo.y > 0 || albedo.z > 0;
+  config.albedo_scaling = config.diffuse && call.material.params.surface.intensity > 0;
   if (!call.truth) setKnobs(call.options, kEveryProgram, config);
   for (const EffectModule* module : effectModules())
     if (module->choose) module->choose(call, config);
@@ -69,7 +70,7 @@ KernelConfig configForAll(const Scene& scene, const ShadingOptions& options, int
   mapped.has_glints = false;
   mapped.normal_map.emplace();
   KernelConfig all = configFor(mapped, scene, options, lanes);
-  all.all_materials = all.cone_lights = all.diffuse = true;
+  all.all_materials = all.cone_lights = all.diffuse = all.albedo_scaling = true;
   for (const Effect effect : EffectSet::all().list()) {
     turnOn(effect, all);
     if (const EffectModule& module = effectModule(effect); module.choose_for_all)

@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "host/core/float4.h"
-#include "host/core/glint_grids.h"
 #include "host/core/stopwatch.h"
 #include "host/core/trace.h"
 #include "host/frame/all_materials.h"
@@ -102,7 +101,8 @@ KernelConfig FramePass::configOf(const Material& material) const {
 
 Buffer FramePass::materialBuffer(const Material& material, const KernelConfig& config) {
   if (!config.all_materials)
-    return upload(device_, std::vector{withGlintGrids(material.params)}, BufferPurpose::kMaterials);
+    return upload(device_, std::vector{preparedMaterial(material, config)},
+                  BufferPurpose::kMaterials);
   return resources_
       .kept<AllMaterials>(
           [&] { return AllMaterials{uploadMaterials(device_, scene_, options_, config.width)}; })

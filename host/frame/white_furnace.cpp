@@ -32,12 +32,14 @@ std::vector<PartOfSky> evenSky() {
   return parts;
 }
 
-// Mirror images of the view at normals over the quantiles of a Beckmann distribution; the rule of
+// Mirror images of the view at normals over the quantiles of their distribution; the rule of
 // reference::microfacetAlbedo().
-std::vector<PartOfSky> mirroredSky(const glm::dvec3& view, double alpha) {
+std::vector<PartOfSky> mirroredSky(const glm::dvec3& view, double alpha, reference::Ndf ndf) {
   std::vector<PartOfSky> parts;
   for (int k = 0; k < kSlopes; ++k) {
-    const double slope = alpha * std::sqrt(-std::log1p(-(k + 0.5) / kSlopes));
+    const double u = (k + 0.5) / kSlopes;
+    const double slope =
+        alpha * std::sqrt(ndf == reference::Ndf::kGgx ? u / (1 - u) : -std::log1p(-u));
     for (int j = 0; j < kAzimuths; ++j) {
       const double phi = (j + 0.5) * 2 * kPi / kAzimuths;
       const glm::dvec3 m =
@@ -45,7 +47,7 @@ std::vector<PartOfSky> mirroredSky(const glm::dvec3& view, double alpha) {
       const double cosine = glm::dot(view, m);
       const glm::dvec3 direction = 2 * cosine * m - view;
       if (cosine <= 0 || direction.z <= 0) continue;
-      const double density = reference::microfacetDensity(reference::Ndf::kBeckmann, m, alpha);
+      const double density = reference::microfacetDensity(ndf, m, alpha);
       parts.push_back({direction, 4 * cosine / (density * m.z * kLights)});
     }
   }
@@ -67,9 +69,7 @@ TriangleMesh squareMesh() {
   return mesh;
 }
 
-}  // namespace
-
-double whiteFurnace(Device& device, const Material& material, double view_cosine) {
+Scene squareScene(const Material& material, double view_cosine) {
   Scene scene;
   scene.name = "white_furnace";
   scene.mesh = squareMesh();
@@ -77,13 +77,12 @@ double whiteFurnace(Device& device, const Material& material, double view_cosine
   View view;
   view.fov_y_deg = 0.01;
   view.near_plane = 1e-3;
-  view = orbitView(view, {.angle_deg = std::asin(view_cosine) * 180 / kPi});
-  scene.views = {view};
-  const glm::dvec3 towards = glm::normalize(view.eye - view.target);
-  const glm::dvec3 local(towards.z, towards.x, towards.y);  // x' = z, y' = x, z' = y
-  const std::vector<PartOfSky> sky = material.params.surface.intensity > 0
-                                         ? mirroredSky(local, material.params.surface.alpha_g.x)
-                                         : evenSky();
+  scene.views = {orbitView(view, {.angle_deg = std::asin(view_cosine) * 180 / kPi})};
+  return scene;
+}
+
+// Radiance of the square under light of radiance 1 from `sky`.
+double radianceUnder(Device& device, Scene scene, const std::vector<PartOfSky>& sky, int lanes) {
   double sum = 0;
   for (std::size_t first = 0; first < sky.size(); first += kLightsPerFrame) {
     scene.lights.clear();
@@ -93,12 +92,34 @@ double whiteFurnace(Device& device, const Material& material, double view_cosine
       scene.lights.push_back(
           {{direction.y, direction.z, direction.x, 0}, {power, power, power, 0}});
     }
-    FrameRenderer renderer(device, scene, view, {.width_px = kSide_px, .height_px = kSide_px});
+    FrameRenderer renderer(device, scene, scene.views[0],
+                           {.width_px = kSide_px, .height_px = kSide_px, .lanes = lanes});
     renderer.prepare();
     renderer.shade();
     sum += renderer.readRadiance().at(kSide_px / 2, kSide_px / 2)[0];
   }
   return sum;
+}
+
+}  // namespace
+
+double whiteFurnace(Device& device, const Material& material, double view_cosine, int lanes) {
+  const Scene scene = squareScene(material, view_cosine);
+  const SurfaceMaterial& surface = material.params.surface;
+  if (surface.intensity == 0) return radianceUnder(device, scene, evenSky(), lanes);
+  const glm::dvec3 towards = glm::normalize(scene.views[0].eye - scene.views[0].target);
+  const glm::dvec3 local(towards.z, towards.x, towards.y);  // x' = z, y' = x, z' = y
+  Scene mirror = scene;
+  mirror.materials[0].params.surface.albedo = {};
+  const double specular =
+      radianceUnder(device, mirror,
+                    mirroredSky(local, surface.alpha_g.x,
+                                material.ggx ? reference::Ndf::kGgx : reference::Ndf::kBeckmann),
+                    lanes);
+  if (surface.albedo.x == 0) return specular;
+  // What the diffuse layer adds, whatever the even directions make of the lobe.
+  return specular + radianceUnder(device, scene, evenSky(), lanes) -
+         radianceUnder(device, mirror, evenSky(), lanes);
 }
 
 }  // namespace glintmark

@@ -10,8 +10,8 @@ namespace glintmark {
 
 /// Radiance of a plane of the material towards directions of cosine `view_cosine` from its normal,
 /// in (0, 1]. Its red channel; 1 where nothing is lost. The light comes as 4096 point lights: their
-/// directions are spread evenly over the quantiles of the specular lobe, or over the hemisphere if
-/// the material has none (intensity 0).
-double whiteFurnace(Device& device, const Material& material, double view_cosine);
+/// directions are spread evenly over the quantiles of the specular lobe, and over the hemisphere
+/// for what the surface reflects beside it. `lanes`: 0, as the device prefers.
+double whiteFurnace(Device& device, const Material& material, double view_cosine, int lanes = 0);
 
 }  // namespace glintmark

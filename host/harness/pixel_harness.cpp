@@ -12,6 +12,7 @@
 #include "host/frame/effect/lights.h"
 #include "host/frame/effects.h"
 #include "host/frame/shade_arguments.h"
+#include "host/frame/specular_albedo.h"
 
 namespace glintmark {
 namespace {
@@ -61,6 +62,12 @@ glm::dvec3 toDouble(const float4& v) {
   return {v.x, v.y, v.z};
 }
 
+MaterialParams materialOf(const HandMadeFrame& frame, const KernelConfig& config) {
+  MaterialParams material = withGlintGrids(frame.material);
+  if (config.albedo_scaling) setSpecularAlbedo(material.surface, config.ggx);
+  return material;
+}
+
 }  // namespace
 
 ShadedPixels shadePixels(KernelBench& bench, const HandMadeFrame& frame, KernelConfig config) {
@@ -73,11 +80,10 @@ ShadedPixels shadePixels(KernelBench& bench, const HandMadeFrame& frame, KernelC
 
   Buffer radiance(device, stride * 12, BufferPurpose::kProbe, "radiance");
   Buffer counts(device, stride * 8, BufferPurpose::kProbe, "counts");
-  ShadeArguments arguments(
-      {.planes = probeData(bench, planeWords(frame, config.planes, stride)),
-       .frame = probeData(bench, std::vector{paramsOf(frame, stride)}),
-       .material = probeData(bench, std::vector{withGlintGrids(frame.material)}),
-       .lights = probeData(bench, prepareLights(frame.lights))});
+  ShadeArguments arguments({.planes = probeData(bench, planeWords(frame, config.planes, stride)),
+                            .frame = probeData(bench, std::vector{paramsOf(frame, stride)}),
+                            .material = probeData(bench, std::vector{materialOf(frame, config)}),
+                            .lights = probeData(bench, prepareLights(frame.lights))});
   if (frame.scatter) arguments.add("scatter", probeData(bench, std::vector{*frame.scatter}));
   if (config.multiscatter != Multiscatter::kOff) {
     const PreparedTaps taps = prepareTaps(frame.lights);

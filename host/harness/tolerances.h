@@ -142,12 +142,16 @@ inline constexpr double kFrameError = 1e-5;
 /// Energy that metals get back, of all: a polynomial of the eighth degree, and the albedo of the
 /// rational fit of Smith's Lambda, good to 0.35 % of G1.
 inline constexpr double kCompensationTolerance = 6e-3;
+/// Energy of a diffuse layer and a lobe above it, of all: two polynomials of the seventh degree, and
+/// sums over 4096 directions.
+inline constexpr double kCouplingTolerance = 5e-3;
 
 /// A footprint that holds a whole map, relative. One tilted normal: rounding and the rational fit
 /// of Smith's Lambda. Four that a mixture keeps apart: those, and what EM's shared normals leave. A
-/// Gaussian in place of four normals a third of the base lobe apart: its fourth moment. Phong peaks
-/// in place of Beckmann lobes: cos^n falls off later.
-inline constexpr double kTiltedLobe = 0.005, kGaussianOfNormals = 0.04, kPhongPeaks = 0.12;
+/// Gaussian in place of four normals a third of the base lobe apart: its fourth moment, which the
+/// diffuse layer no longer hides where the lobe leaves it little. Phong peaks in place of Beckmann
+/// lobes: cos^n falls off later.
+inline constexpr double kTiltedLobe = 0.005, kGaussianOfNormals = 0.045, kPhongPeaks = 0.12;
 
 /// Multiple scattering, relative to a Lambertian lobe's radiance: single precision and the
 /// polynomials in a cosine.

@@ -1,6 +1,7 @@
 #include "host/ocl/kernel_folder.h"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -39,6 +40,22 @@ std::uint64_t hashKernels(const fs::path& folder) {
     hash = fnv1a(text, hash);
   }
   return hash;
+}
+
+std::uint64_t KernelHash::get() {
+  std::string stamp;
+  for (const fs::path& file : kernelFiles(folder_)) {
+    struct stat status = {};
+    if (::stat(file.c_str(), &status) != 0) status = {};
+    stamp += fmt::format("{}:{}:{}:{}:{}.{}:{}.{}\n", file.string(), status.st_dev, status.st_ino,
+                         status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec,
+                         status.st_ctim.tv_sec, status.st_ctim.tv_nsec);
+  }
+  if (stamp != stamp_) {
+    hash_ = hashKernels(folder_);
+    stamp_ = std::move(stamp);
+  }
+  return hash_;
 }
 
 IncludePath::IncludePath(const std::string& folder) : folder_(folder) {

@@ -83,6 +83,7 @@ struct ProgramCache::Impl {
   DeviceInfo info;
   Device::Impl device;
   std::string folder = kernelFolder();
+  KernelHash kernel_hash{folder};
   DiskCache disk = programsOnDisk();
   std::map<std::string, std::shared_ptr<BuiltProgram>> memory;  // by key
 };
@@ -94,7 +95,7 @@ Program ProgramCache::Impl::build(const std::string& file, const std::string& ow
 
   std::string options = own_options + " -cl-std=CL1.2 -cl-kernel-arg-info";
   if (info.correctly_rounded_divide_sqrt) options += " -cl-fp32-correctly-rounded-divide-sqrt";
-  const std::uint64_t hash = hashKernels(folder);
+  const std::uint64_t hash = kernel_hash.get();
   const std::string name = fmt::format("{}\n{}\n{}\n{}\n", file, options, info.name, info.platform);
   const std::string key =
       fmt::format("{}{}\n{}\n{:016x}\n", name, info.platform_version, info.driver_version, hash);

@@ -60,7 +60,11 @@ double microfacetTimesCosine(Ndf ndf, const glm::dvec3& i, const glm::dvec3& o, 
   return 0.25 * microfacetDensity(ndf, m, alpha) * masking;
 }
 
-double microfacetAlbedo(Ndf ndf, double mu, double alpha, SmithForm form) {
+namespace {
+
+// Integral of weight(o.m) times the BRDF times i.z over i, for one o.
+template <typename Weight>
+double lobeIntegral(Ndf ndf, double mu, double alpha, SmithForm form, Weight&& weight) {
   // Normals m with quantile u of their slope and azimuth phi: d m = 1 / (D m.z) d(u, phi / 2 pi),
   // and d i = 4 o.m d m. GGX: slope^2 = alpha^2 u / (1 - u); Beckmann: -alpha^2 log(1 - u).
   constexpr int kSlopes = 192, kAzimuths = 96;  // azimuths over half a turn
@@ -77,11 +81,38 @@ double microfacetAlbedo(Ndf ndf, double mu, double alpha, SmithForm form) {
       const double cosine = glm::dot(o, m);
       if (cosine <= 0) continue;
       const glm::dvec3 i = 2 * cosine * m - o;
-      sum += microfacetTimesCosine(ndf, i, o, alpha, form) * 4 * cosine /
+      sum += weight(cosine) * microfacetTimesCosine(ndf, i, o, alpha, form) * 4 * cosine /
              (microfacetDensity(ndf, m, alpha) * m.z);
     }
   }
   return sum / (kSlopes * kAzimuths);
+}
+
+}  // namespace
+
+double microfacetAlbedo(Ndf ndf, double mu, double alpha, SmithForm form) {
+  return lobeIntegral(ndf, mu, alpha, form, [](double) { return 1.0; });
+}
+
+double microfacetSchlickAlbedo(Ndf ndf, double mu, double alpha, SmithForm form) {
+  return lobeIntegral(ndf, mu, alpha, form,
+                      [](double cosine) { return std::pow(1 - std::min(cosine, 1.0), 5); });
+}
+
+CoatedDiffuse::CoatedDiffuse(Ndf ndf, double alpha, const glm::dvec3& f0, double intensity) {
+  constexpr int kCosines = 128;
+  for (int i = 0; i < kCosines; ++i) {
+    const double mu = std::max(static_cast<double>(i) / (kCosines - 1), 1e-4);
+    const double mirror = microfacetAlbedo(ndf, mu, alpha);
+    const double schlick = microfacetSchlickAlbedo(ndf, mu, alpha);
+    shares_.push_back(glm::max(1.0 - intensity * (f0 * (mirror - schlick) + schlick), 0.0));
+  }
+}
+
+glm::dvec3 CoatedDiffuse::share(double mu) const {
+  const double at = std::clamp(mu, 0.0, 1.0) * static_cast<double>(shares_.size() - 1);
+  const std::size_t i = std::min(static_cast<std::size_t>(at), shares_.size() - 2);
+  return glm::mix(shares_[i], shares_[i + 1], at - static_cast<double>(i));
 }
 
 }  // namespace glintmark::reference

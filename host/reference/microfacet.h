@@ -9,6 +9,7 @@
 #include <glm/glm.hpp>
 
 #include <string>
+#include <vector>
 
 namespace glintmark::reference {
 
@@ -44,5 +45,22 @@ double microfacetTimesCosine(Ndf ndf, const glm::dvec3& i, const glm::dvec3& o, 
 /// Directional albedo at a Fresnel term of 1: integral of that over i for one o with o.z = mu, 0 to
 /// 1, by a fixed rule over the normals' slopes, good to 3e-4 for alpha in [0.01, 1].
 double microfacetAlbedo(Ndf ndf, double mu, double alpha, SmithForm form = SmithForm::kExact);
+
+/// The same with Schlick's (1 - o.h)^5 in the place of the Fresnel term.
+double microfacetSchlickAlbedo(Ndf ndf, double mu, double alpha,
+                               SmithForm form = SmithForm::kExact);
+
+/// A diffuse layer under an isotropic lobe: what the lobe leaves of the light, per channel. What is
+/// reflected towards o.z = mu and what reaches the layer are taken to be the same share.
+class CoatedDiffuse {
+ public:
+  /// f0 in [0, 1], `intensity` of the lobe >= 0.
+  CoatedDiffuse(Ndf ndf, double alpha, const glm::dvec3& f0, double intensity);
+  /// 1 - albedo of the lobe, at least 0; interpolated between 128 cosines.
+  glm::dvec3 share(double mu) const;
+
+ private:
+  std::vector<glm::dvec3> shares_;  // at mu = i / (size - 1)
+};
 
 }  // namespace glintmark::reference

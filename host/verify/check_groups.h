@@ -14,6 +14,7 @@ std::vector<Check> binomialChecks();      // binomial.clh
 std::vector<Check> pixelChecks();         // frames and views of pixels
 std::vector<Check> glintChecks();         // cells and draws of whole pixels
 std::vector<Check> colourChecks();        // colours of draws
+std::vector<Check> couplingChecks();      // a diffuse layer under a specular lobe
 std::vector<Check> shadingChecks();       // smooth pixels of coloured materials
 std::vector<Check> energyChecks();        // glints on average
 std::vector<Check> zoomChecks();          // glints near, far, and continuous

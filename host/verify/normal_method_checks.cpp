@@ -12,6 +12,7 @@
 #include "host/harness/small_scenes.h"
 #include "host/harness/tolerances.h"
 #include "host/reference/beckmann.h"
+#include "host/reference/microfacet.h"
 #include "host/verify/check_frames.h"
 #include "host/verify/check_groups.h"
 
@@ -60,7 +61,8 @@ glm::dvec3 inFloor(const glm::dvec3& w) {
 }
 
 // What the surface of normal `n` (tangent space) makes of the scene's lights.
-glm::dvec3 shadeNormal(const Scene& scene, const glm::dvec3& n, const glm::dvec3& view) {
+glm::dvec3 shadeNormal(const Scene& scene, const reference::CoatedDiffuse& coat,
+                       const glm::dvec3& n, const glm::dvec3& view) {
   const SurfaceMaterial& surface = scene.materials[0].params.surface;
   const glm::dvec3 t = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), n)), b = glm::cross(n, t);
   const auto local = [&](const glm::dvec3& w) {
@@ -71,8 +73,9 @@ glm::dvec3 shadeNormal(const Scene& scene, const glm::dvec3& n, const glm::dvec3
     const glm::dvec3 i = local(inFloor(glm::normalize(rgb(light.direction)))), o = local(view);
     const glm::dvec3 specular = reference::brdfTimesCosine(
         i, o, glm::dvec2(surface.alpha_g.x, surface.alpha_g.y), rgb(surface.f0));
-    sum += rgb(light.irradiance) * (static_cast<double>(surface.intensity) * specular +
-                                    rgb(surface.albedo) * std::max(i.z, 0.0) / kPi);
+    sum +=
+        rgb(light.irradiance) * (static_cast<double>(surface.intensity) * specular +
+                                 rgb(surface.albedo) * coat.share(o.z) * std::max(i.z, 0.0) / kPi);
   }
   return sum;
 }
@@ -126,6 +129,9 @@ Finding methodIsTheMean(const CheckContext& context, const MethodCase& c) {
   options.normal_method = c.method;
   options.half_texels = c.half;
   const auto textures = std::make_shared<NormalTextures>(context.bench.device);
+  const SurfaceMaterial& surface = scene.materials[0].params.surface;
+  const reference::CoatedDiffuse coat(reference::Ndf::kBeckmann, surface.alpha_g.x, rgb(surface.f0),
+                                      surface.intensity);
   Finding finding(c.bound);
   for (const double angle_deg : {80.0, 30.0}) {
     FrameRenderer renderer(context.bench.device, scene, lookingDown(angle_deg, 3), options, 1,
@@ -138,8 +144,9 @@ Finding methodIsTheMean(const CheckContext& context, const MethodCase& c) {
         const glm::dvec3 view = inFloor(-glm::normalize(renderer.camera().ray(x, y)));
         glm::dvec3 want(0);
         for (const glm::vec3& n : map.normals)
-          want += shadeNormal(scene, glm::dvec3(n), view) / static_cast<double>(map.normals.size());
-        if (c.of_mean) want = shadeNormal(scene, glm::normalize(mean), view);
+          want += shadeNormal(scene, coat, glm::dvec3(n), view) /
+                  static_cast<double>(map.normals.size());
+        if (c.of_mean) want = shadeNormal(scene, coat, glm::normalize(mean), view);
         for (std::size_t k = 0; k < 3; ++k)
           finding.add(std::abs(image.at(x, y)[k] / want[static_cast<int>(k)] - 1));
       }

@@ -84,8 +84,14 @@ void compare(const CheckContext& context, Finding& finding, const Scene& scene, 
   for (int c = 0; c < 3; ++c) finding.add(std::abs(got_sum[c] / want_sum[c] - 1) / kMeanNoise);
 }
 
-glm::dvec3 shadeCones(const Scene& scene, const glm::dvec3& n, const glm::dvec3& view,
-                      int directions) {
+reference::CoatedDiffuse coatOf(const Material& material) {
+  const SurfaceMaterial& surface = material.params.surface;
+  return {material.ggx ? reference::Ndf::kGgx : reference::Ndf::kBeckmann, surface.alpha_g.x,
+          rgbOf(surface.f0), surface.intensity};
+}
+
+glm::dvec3 shadeCones(const Scene& scene, const reference::CoatedDiffuse& coat, const glm::dvec3& n,
+                      const glm::dvec3& view, int directions) {
   const SurfaceMaterial& surface = scene.materials[0].params.surface;
   const glm::dvec3 t = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), n)), b = glm::cross(n, t);
   const auto local = [&](const glm::dvec3& w) {
@@ -102,7 +108,7 @@ glm::dvec3 shadeCones(const Scene& scene, const glm::dvec3& n, const glm::dvec3&
     sum += rgbOf(light.irradiance) *
            (static_cast<double>(surface.intensity) *
                 reference::coneRadiance(cone, local(view), alpha, rgbOf(surface.f0), directions) +
-            rgbOf(surface.albedo) * lambert);
+            rgbOf(surface.albedo) * coat.share(local(view).z) * lambert);
   }
   return sum;
 }
@@ -113,9 +119,10 @@ Finding coneTruth(const CheckContext& context) {
   for (const double z : {-0.6, 0.6}) {
     Scene scene = truthFloor();
     scene.lights = {coneOver({0.6, 0.7, z}, 12)};
+    const reference::CoatedDiffuse coat = coatOf(scene.materials[0]);
     compare(context, finding, scene, lookingDown(40), kPixelNoise,
             [&](const Camera& camera, double x, double y) {
-              return shadeCones(scene, {0, 0, 1}, onFloor(-glm::normalize(camera.ray(x, y))),
+              return shadeCones(scene, coat, {0, 0, 1}, onFloor(-glm::normalize(camera.ray(x, y))),
                                 kTruthDirections);
             });
   }
@@ -150,6 +157,7 @@ Finding mappedTruth(const CheckContext& context) {
       }
     return glm::normalize(sum);
   };
+  const reference::CoatedDiffuse coat = coatOf(scene.materials[0]);
   Finding finding(1);
   compare(context, finding, scene, lookingDown(35, 1), kPixelNoise,
           [&](const Camera& camera, double px, double py) {
@@ -159,7 +167,7 @@ Finding mappedTruth(const CheckContext& context) {
                 const double x = px - 0.5 + (i + 0.5) / kSubpixels,
                              y = py - 0.5 + (j + 0.5) / kSubpixels;
                 const glm::dvec3 p = floorPoint(camera, x, y);
-                sum += shadeCones(scene, normalAt(p.x, -p.z),
+                sum += shadeCones(scene, coat, normalAt(p.x, -p.z),
                                   onFloor(-glm::normalize(camera.ray(x, y))), 1);
               }
             return sum / static_cast<double>(kSubpixels * kSubpixels);
@@ -181,6 +189,7 @@ Finding areaTruth(const CheckContext& context, bool ggx) {
   above.two_sided = standing.two_sided = true;
   scene.area_lights = {above, standing};
   const SurfaceMaterial& surface = scene.materials[0].params.surface;
+  const reference::CoatedDiffuse coat = coatOf(scene.materials[0]);
   Finding finding(1);
   compare(context, finding, scene, lookingDown(30, 2), kWeightedNoise,
           [&](const Camera& camera, double x, double y) {
@@ -205,7 +214,7 @@ Finding areaTruth(const CheckContext& context, bool ggx) {
                   sum += light.radiance * angle *
                          (static_cast<double>(surface.intensity) * fresnel *
                               reference::microfacetTimesCosine(ndf, l, view, surface.alpha_g.x) +
-                          rgbOf(surface.albedo) * l.z / kPi);
+                          rgbOf(surface.albedo) * coat.share(view.z) * l.z / kPi);
                 }
             }
             return sum;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/core/angles.h"
+#include "host/frame/chebyshev.h"
 #include "host/frame/effects.h"
 #include "host/ocl/upload.h"
 
@@ -14,24 +15,6 @@ namespace glintmark {
 namespace {
 
 constexpr double kLeastRoom = 1e-6;  // of a surface so smooth that nothing is scattered twice
-
-// The polynomial through a function on [0, 1] at Chebyshev points, by Newton's divided differences.
-void interpolate(const std::function<double(double)>& f, float (&out)[MS_DEGREES]) {
-  std::array<double, MS_DEGREES> x{}, difference{}, power{};
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    x[i] = 0.5 - 0.5 * std::cos(kPi * (static_cast<double>(i) + 0.5) / MS_DEGREES);
-    difference[i] = f(x[i]);
-  }
-  for (std::size_t k = 1; k < x.size(); ++k)
-    for (std::size_t i = x.size() - 1; i >= k; --i)
-      difference[i] = (difference[i] - difference[i - 1]) / (x[i] - x[i - k]);
-  for (std::size_t k = x.size(); k-- > 0;) {
-    // power = power * (t - x[k]) + difference[k]
-    for (std::size_t i = power.size() - 1; i > 0; --i) power[i] = power[i - 1] - x[k] * power[i];
-    power[0] = difference[k] - x[k] * power[0];
-  }
-  std::ranges::transform(power, out, [](double c) { return static_cast<float>(c); });
-}
 
 float4 mapColour(const float4& colour, const std::function<double(double)>& f) {
   return {static_cast<float>(f(colour.x)), static_cast<float>(f(colour.y)),
@@ -60,11 +43,13 @@ void prepareLobes(const Material& material, LobePolynomials p, MultiscatterMater
   out.multiple = mapColour(material.params.surface.albedo, [&](double rho) {
     return rho * rho * (1 + third * rho) * (2 + eta) / (2 * kPi * kPi);
   });
-  interpolate([&](double mu) { return lobeModelShare(p, alpha, 1, mu, 1); }, out.share);
+  interpolateAtChebyshevPoints([&](double mu) { return lobeModelShare(p, alpha, 1, mu, 1); },
+                               out.share);
   const LobeModel model(p, alpha);
   const double room = std::max(model.scattered(), kLeastRoom);
-  interpolate([&](double mu) { return model.means(mu).plain / room; }, out.crowd);
-  interpolate([&](double mu) { return model.means(mu).masked / room; }, out.masked_crowd);
+  interpolateAtChebyshevPoints([&](double mu) { return model.means(mu).plain / room; }, out.crowd);
+  interpolateAtChebyshevPoints([&](double mu) { return model.means(mu).masked / room; },
+                               out.masked_crowd);
 }
 
 void prepareEon(const MaterialParams& material, double r, MultiscatterMaterial& out) {
@@ -75,7 +60,7 @@ void prepareEon(const MaterialParams& material, double r, MultiscatterMaterial& 
   out.multiple = mapColour(material.surface.albedo, [&](double rho) {
     return rho * rho * mean / (1 - rho * (1 - mean)) / kPi / std::max(1 - mean, 1e-7);
   });
-  interpolate([&](double mu) { return 1 - eonAlbedo(mu, r); }, out.share);
+  interpolateAtChebyshevPoints([&](double mu) { return 1 - eonAlbedo(mu, r); }, out.share);
 }
 
 // Metals: what one bounce leaves out, over what it reflects. [Turquin19] Eq. 16
@@ -84,7 +69,7 @@ void prepareCompensation(const Material& material, const MirrorAlbedo& mirror,
   const double alpha = std::sqrt(static_cast<double>(material.params.surface.alpha_g.x) *
                                  material.params.surface.alpha_g.y);
   out.warp = static_cast<float>(MS_WARP * alpha);
-  interpolate(
+  interpolateAtChebyshevPoints(
       [&](double t) {
         // Never more than the lobe lacks, whatever the noise of a simulation.
         const double lobe = mirror.at(mirror.lobe, alpha, t);
