@@ -16,7 +16,7 @@ namespace {
 
 // One cosine lobe for a Gaussian of normals: the error that nine in ten lights stay below, in units
 // of what a light that fills the view would send, and that of all of them together.
-constexpr double kLobeOfNormals = 0.05, kSchlickOfNormals = 0.012, kEnergyOfNormals = 0.03;
+constexpr double kLobeOfNormals = 0.036, kSchlickOfNormals = 0.009, kEnergyOfNormals = 0.03;
 // Lambert's term of the mean normal for that of all: what bends at the horizon is left out.
 constexpr double kMeanCosine = 0.015;
 constexpr int kNormals = 20000, kMixtures = 120;
