@@ -1,5 +1,7 @@
 #include "host/frame/effect/normal_maps.h"
 
+#include <algorithm>
+
 #include "host/core/error.h"
 #include "host/filter/interpolated_normals.h"
 #include "host/filter/normal_moments.h"
@@ -95,7 +97,9 @@ const NormalTexture& NormalTextures::get(const std::shared_ptr<const NormalMap>&
   NormalMethod method = config.normal_method;
   if (method == NormalMethod::kMip) method = NormalMethod::kToksvig;
   const bool gmm = method == NormalMethod::kGmm;
-  const bool interpolated = gmm && config.ltc_method == LtcMethod::kMixture;
+  // Maps that cannot be twice as large are fitted to their texels.
+  const bool interpolated = gmm && config.ltc_method == LtcMethod::kMixture &&
+                            2 * std::max(map->width_px, map->height_px) <= kMaxNormalMapSize_px;
   const Key key = {map,
                    method,
                    gmm ? config.lobes : 0,
