@@ -31,10 +31,12 @@ struct MeasuredTable {
 };
 
 reference::Ndf parseNdf(const std::string& name) {
-  for (const reference::Ndf ndf : {reference::Ndf::kGgx, reference::Ndf::kBeckmann}) {
+  for (const reference::Ndf ndf :
+       {reference::Ndf::kGgx, reference::Ndf::kBeckmann, reference::Ndf::kNormals}) {
     if (name == reference::ndfName(ndf)) return ndf;
   }
-  throw Error(fmt::format("unknown distribution '{}'; distributions are ggx and beckmann", name));
+  throw Error(
+      fmt::format("unknown distribution '{}'; distributions are ggx, beckmann and normals", name));
 }
 
 void checkFitLtc(const FitLtcCommand& command) {
@@ -148,7 +150,7 @@ void addFitLtcCommand(Command fit, CommandLine& line) {
   auto options = std::make_shared<FitLtcCommand>();
   Command command =
       fit.subcommand("ltc", "Linearly transformed cosines of a microfacet BRDF, and their error");
-  command.option("--ndf", options->ndf, "ggx or beckmann (default: ggx)");
+  command.option("--ndf", options->ndf, "ggx, beckmann or normals (default: ggx)");
   command.option("--size", options->size, "Nodes along each axis, 8 to 128 (default: 64)");
   command.option("-o,--output", options->output, "The table").typeName("FILE");
   command.option("--picture", options->picture, "Error of every node in false colours")

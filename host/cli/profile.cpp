@@ -27,6 +27,7 @@ struct ProfileOptions {
   std::string scene, view, folder;
   std::string size = "1920x1080", method = defaultMethod();
   std::string normal_method = choiceName(ShadingOptions{}.normal_method);
+  std::string ltc_method = choiceName(ShadingOptions{}.ltc_method);
   double seconds = 10;
 };
 
@@ -59,7 +60,8 @@ int runProfile(const CommandLine& line, const ProfileOptions& options) {
       .height_px = size.height_px,
       .lanes = line.common.lanes,
       .method = parseMethod(options.method),
-      .normal_method = parseChoice<NormalMethod>(options.normal_method, "normal method")};
+      .normal_method = parseChoice<NormalMethod>(options.normal_method, "normal method"),
+      .ltc_method = parseChoice<LtcMethod>(options.ltc_method, "area light method")};
   if (!options.folder.empty()) requireWritableFolder(options.folder);
   const Scene scene = openScene(line.common, options.scene);
   const View& view = chosenView(scene, options.view);
@@ -103,6 +105,9 @@ void addProfileCommand(Command app, CommandLine& line) {
   command.option("--normal-method", options->normal_method,
                  fmt::format("{} (default: {})", listOf(namesOf<NormalMethod>(), "or"),
                              options->normal_method));
+  command.option(
+      "--ltc-method", options->ltc_method,
+      fmt::format("{} (default: {})", listOf(namesOf<LtcMethod>(), "or"), options->ltc_method));
   command.option("--seconds", options->seconds, "How long (default: 10)").typeName("S");
   command.footer(
       "Everything but the kernels is done before the first of these frames.\n"

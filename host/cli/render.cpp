@@ -40,6 +40,7 @@ struct RenderOptions {
   std::string scene, view, output, aov_output, trace;
   std::string size = "1920x1080", method = choiceName(kRenderMethod);
   std::string normal_method = choiceName(ShadingOptions{}.normal_method);
+  std::string ltc_method = choiceName(ShadingOptions{}.ltc_method);
   int truth_spp = 0;  // 0: a frame
   int frames = 0;     // of a path; 0: one picture, without a number
   std::string path;
@@ -239,6 +240,7 @@ int runRender(const CommandLine& line, const RenderOptions& options) {
       .lanes = common.lanes,
       .method = parseMethod(options.method),
       .normal_method = parseChoice<NormalMethod>(options.normal_method, "normal method"),
+      .ltc_method = parseChoice<LtcMethod>(options.ltc_method, "area light method"),
       .glints = !options.no_glints};
   if (options.zoom != 0) return runZoom(common, options, shading);
   const Scene scene = openScene(common, options.scene);
@@ -294,6 +296,9 @@ void addRenderCommand(Command app, CommandLine& line) {
   command.option("--normal-method", options->normal_method,
                  fmt::format("{} (default: {})", listOf(namesOf<NormalMethod>(), "or"),
                              options->normal_method));
+  command.option(
+      "--ltc-method", options->ltc_method,
+      fmt::format("{} (default: {})", listOf(namesOf<LtcMethod>(), "or"), options->ltc_method));
   command
       .option("--truth", options->truth_spp,
               "The ground truth by so many samples a pixel, in place of any method")

@@ -152,7 +152,8 @@ class TableFit {
         cell.albedo = std::min(samples.albedo, 1.0);
         cell.schlick_albedo = samples.schlick_albedo;
       }
-      const double mass = reference::ltcMassAboveHorizon(ltcInverseMatrix(lobe(x, y)));
+      const bool cut = options_.ndf != reference::Ndf::kNormals;
+      const double mass = cut ? reference::ltcMassAboveHorizon(ltcInverseMatrix(lobe(x, y))) : 1;
       cell.scale = cell.albedo / mass;
       cell.schlick = cell.schlick_albedo / mass;
       storeLobe(lobe(x, y), alpha, cosine, cell);

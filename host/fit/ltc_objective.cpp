@@ -44,7 +44,7 @@ double ltcFitError(const LtcSamples& samples, const LtcLobe& lobe,
   const double c = f.cos_turn, s = f.sin_turn;
   const double inverse_x = 1 / f.width_x, inverse_y = 1 / f.width_y;
   const double inverse_y_sq = inverse_y * inverse_y, shear = f.shear * inverse_x;
-  const FactorsMass mass = massAboveHorizon(f);
+  const FactorsMass mass = samples.whole_sphere ? FactorsMass{} : massAboveHorizon(f);
   const double factor = inverse_x * inverse_y / (std::numbers::pi * mass.share);
   const double inverse_albedo = 1 / samples.albedo;
   const double* x = samples.x.data();

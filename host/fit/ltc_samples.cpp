@@ -43,10 +43,12 @@ class SampleMaker {
         view_(std::sqrt(std::max(0.0, 1 - cos_theta * cos_theta)), 0, cos_theta),
         inverse_(inverse),
         lobe_count_(static_cast<double>(counts.lobe_radial) * counts.lobe_azimuth),
-        uniform_count_(static_cast<double>(counts.hemisphere_radial) * counts.hemisphere_azimuth) {}
+        uniform_count_(static_cast<double>(counts.hemisphere_radial) * counts.hemisphere_azimuth) {
+    samples.whole_sphere = ndf == reference::Ndf::kNormals;
+  }
 
   void add(const glm::dvec3& direction) {
-    if (direction.z <= 0) return;
+    if (direction.z <= 0 && !samples.whole_sphere) return;
     // Balance heuristic: every sample stands for 1 / (expected density of samples there).
     const double density = lobe_count_ * reference::ltcDensity(inverse_, direction) +
                            uniform_count_ * 0.5 / std::numbers::pi;
@@ -90,8 +92,10 @@ LtcSamples makeLtcSamples(reference::Ndf ndf, double alpha, double cos_theta,
   }
   for (int i = 0; i < counts.hemisphere_radial; ++i) {
     for (int j = 0; j < counts.hemisphere_azimuth; ++j) {
-      maker.add(
-          uniformDirection(gridPoint(i, j, counts.hemisphere_radial, counts.hemisphere_azimuth)));
+      const glm::dvec3 up =
+          uniformDirection(gridPoint(i, j, counts.hemisphere_radial, counts.hemisphere_azimuth));
+      maker.add(up);
+      if (maker.samples.whole_sphere) maker.add({up.x, up.y, -up.z});
     }
   }
   return std::move(maker.samples);

@@ -8,13 +8,15 @@
 namespace glintmark {
 
 /// Sample directions i of one half of the hemisphere (y >= 0; the BRDF is symmetric), with weights
-/// such that sum weight g(i) approximates the integral of g over the whole hemisphere.
+/// such that sum weight g(i) approximates the integral of g over the whole hemisphere; of
+/// Ndf::kNormals, over the sphere.
 struct LtcSamples {
   std::vector<double> x, y_sq, z;
   std::vector<double> weight;
   std::vector<double> brdf;  // BRDF times cosine at F0 = 1
   double albedo = 0;         // integrals of brdf, and of brdf times (1 - o.h)^5
   double schlick_albedo = 0;
+  bool whole_sphere = false;  // of Ndf::kNormals: samples, and the lobe, are not cut at the horizon
 };
 
 struct LtcSampleCounts {

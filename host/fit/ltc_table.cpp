@@ -75,4 +75,12 @@ LtcCell lookUpLtc(const LtcTable& table, double alpha, double cos_theta) {
   return mix(row(y.first), row(y.first + 1), y.fraction);
 }
 
+LtcTable resizedLtcTable(const LtcTable& table, int size) {
+  LtcTable resized(table.ndf, size);
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x)
+      resized.setCell(x, y, lookUpLtc(table, ltcColumnAlpha(x, size), ltcRowCosine(y, size)));
+  return resized;
+}
+
 }  // namespace glintmark

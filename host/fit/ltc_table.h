@@ -46,6 +46,9 @@ double ltcRowCosine(int y, int size);
 /// Bilinear interpolation at alpha and cos_theta, each clamped to [0, 1], in double precision.
 LtcCell lookUpLtc(const LtcTable& table, double alpha, double cos_theta);
 
+/// The table at another size, LTC_SIZE_MIN to LTC_SIZE_MAX, interpolated.
+LtcTable resizedLtcTable(const LtcTable& table, int size);
+
 /// The bytes of a table file: a header of 32 bytes (magic, version, NDF, size, floats per cell,
 /// checksum of the values, all little-endian), then the values.
 std::string serializeLtcTable(const LtcTable& table);

@@ -21,7 +21,7 @@ constexpr std::uint32_t kVersion = 1;
 struct FileHeader {
   char magic[8];
   std::uint32_t version;
-  std::uint32_t ndf;  // 0 GGX, 1 Beckmann
+  std::uint32_t ndf;  // the value of reference::Ndf
   std::uint32_t size;
   std::uint32_t cell_floats;
   std::uint64_t checksum;  // FNV-1a of the values' bytes
@@ -48,8 +48,8 @@ FileHeader readHeader(std::string_view bytes, const std::string& name) {
                     "with {}; `glintmark fit ltc` writes one",
                     name, header.version, header.cell_floats, kVersion, LTC_CELL_FLOATS));
   }
-  if (header.size < LTC_SIZE_MIN || header.size > LTC_SIZE_MAX || header.ndf > 1) {
-    throw Error(fmt::format("{} has a damaged header: size {} (8 to 128), distribution {} (0 or 1)",
+  if (header.size < LTC_SIZE_MIN || header.size > LTC_SIZE_MAX || header.ndf > 2) {
+    throw Error(fmt::format("{} has a damaged header: size {} (8 to 128), distribution {} (0 to 2)",
                             name, header.size, header.ndf));
   }
   return header;
@@ -62,7 +62,7 @@ std::string serializeLtcTable(const LtcTable& table) {
                                 table.values.size() * sizeof(float));
   FileHeader header{.magic = {},
                     .version = kVersion,
-                    .ndf = table.ndf == reference::Ndf::kGgx ? 0u : 1u,
+                    .ndf = static_cast<std::uint32_t>(table.ndf),
                     .size = static_cast<std::uint32_t>(table.size),
                     .cell_floats = LTC_CELL_FLOATS,
                     .checksum = fnv1a(values)};
@@ -73,8 +73,7 @@ std::string serializeLtcTable(const LtcTable& table) {
 
 LtcTable parseLtcTable(std::string_view bytes, const std::string& name) {
   const FileHeader header = readHeader(bytes, name);
-  LtcTable table(header.ndf == 0 ? reference::Ndf::kGgx : reference::Ndf::kBeckmann,
-                 static_cast<int>(header.size));
+  LtcTable table(static_cast<reference::Ndf>(header.ndf), static_cast<int>(header.size));
   const std::string_view values = bytes.substr(sizeof(header));
   const std::size_t expected = table.values.size() * sizeof(float);
   if (values.size() != expected) {

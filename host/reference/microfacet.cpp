@@ -8,12 +8,13 @@
 
 namespace glintmark::reference {
 std::string ndfName(Ndf ndf) {
+  if (ndf == Ndf::kNormals) return "normals";
   return ndf == Ndf::kGgx ? "ggx" : "beckmann";
 }
 
 double microfacetDensity(Ndf ndf, const glm::dvec3& m, double alpha) {
   if (m.z <= 0) return 0;
-  if (ndf == Ndf::kBeckmann) return reference::ndf(m, glm::dvec2(alpha));
+  if (ndf != Ndf::kGgx) return reference::ndf(m, glm::dvec2(alpha));
   const double sine_sq = m.x * m.x + m.y * m.y;  // not 1 - z^2, which cancels near the normal
   const double root = m.z * m.z + sine_sq / (alpha * alpha);
   return 1 / (std::numbers::pi * alpha * alpha * root * root);
@@ -21,6 +22,7 @@ double microfacetDensity(Ndf ndf, const glm::dvec3& m, double alpha) {
 
 // At the horizon it is alpha / 2 (GGX) or alpha / (2 sqrt(pi)) (Beckmann).
 double lambdaTimesCosine(Ndf ndf, const glm::dvec3& w, double alpha, SmithForm form) {
+  if (ndf == Ndf::kNormals) return 0;
   const double z = std::max(w.z, 0.0), sine_sq = w.x * w.x + w.y * w.y;
   if (ndf == Ndf::kGgx) {
     const double alpha_sine_sq = alpha * alpha * sine_sq;
@@ -44,9 +46,13 @@ double microfacetLambda(Ndf ndf, const glm::dvec3& w, double alpha) {
 
 double microfacetTimesCosine(Ndf ndf, const glm::dvec3& i, const glm::dvec3& o, double alpha,
                              SmithForm form) {
-  if (i.z <= 0 || o.z < 0) return 0;
+  if (o.z < 0 || (i.z <= 0 && ndf != Ndf::kNormals)) return 0;
   const glm::dvec3 sum = i + o;
   const glm::dvec3 m = sum / std::sqrt(glm::dot(sum, sum));
+  if (ndf == Ndf::kNormals) {
+    const double density = microfacetDensity(ndf, m, alpha);  // no number where it underflows
+    return density > 0 ? density * m.z / (4 * glm::dot(o, m)) : 0;
+  }
   // G2 / o.z = i.z / (i.z o.z + i.z L(o) o.z + o.z L(i) i.z), finite for a grazing view.
   const double lambda_o = lambdaTimesCosine(ndf, o, alpha, form);
   const double lambda_i = lambdaTimesCosine(ndf, i, alpha, form);

@@ -13,9 +13,12 @@
 
 namespace glintmark::reference {
 
-enum class Ndf { kGgx, kBeckmann };
+/// kNormals is no microsurface but a normal map in the limit of mirrors: Beckmann's slopes, of
+/// which none hides another and each counts alike whichever way it faces. It reflects D(m) m.z / (4
+/// o.m) in all directions, below its horizon too, and its albedo is the share that faces the view.
+enum class Ndf { kGgx, kBeckmann, kNormals };
 
-/// "ggx" or "beckmann".
+/// "ggx", "beckmann" or "normals".
 std::string ndfName(Ndf ndf);
 
 /// D(m), normalised such that the integral of D(m) m.z over directions is 1; 0 below the horizon.
@@ -34,7 +37,8 @@ double lambdaTimesCosine(Ndf ndf, const glm::dvec3& w, double alpha,
 double microfacetLambda(Ndf ndf, const glm::dvec3& w, double alpha);
 
 /// BRDF times i.z at a Fresnel term of 1: D(m) G2(i, o) / (4 o.z); 0 where i or o is not above the
-/// surface. Its limit for a grazing view, o.z = 0, is finite and is what this returns there.
+/// surface (of kNormals, o only). Its limit for a grazing view, o.z = 0, is finite and is what this
+/// returns there.
 double microfacetTimesCosine(Ndf ndf, const glm::dvec3& i, const glm::dvec3& o, double alpha,
                              SmithForm form = SmithForm::kExact);
 

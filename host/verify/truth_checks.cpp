@@ -254,7 +254,7 @@ double lambertOf(const AreaLight& lamp, const glm::dvec3& point, const glm::dvec
 
 // kernels/README.md, "Normals that turn away": from the eye, a normal mirrors nothing and scatters
 // diffuse light all the same; light reaches whichever normals face it, from behind the mesh too.
-// Frame and truth against Lambert's term alone.
+// Frame and truth against Lambert's term alone, with what the lobe leaves of it at the horizon.
 Finding turnedNormals(const CheckContext& context, bool behind_mesh, bool area) {
   Scene scene = truthFloor();
   SurfaceMaterial& surface = scene.materials[0].params.surface;
@@ -273,10 +273,13 @@ Finding turnedNormals(const CheckContext& context, bool behind_mesh, bool area) 
   else
     scene.lights = {sun};
   const View view = lookingDown(behind_mesh ? 60 : 20, 2);
+  const reference::CoatedDiffuse coat = coatOf(scene.materials[0]);
   const Radiance want = [&](const Camera& camera, double x, double y) {
     const double light = area ? lambertOf(lamp, floorPoint(camera, x, y), n)
                               : glm::dot(n, onFloor(glm::normalize(rgbOf(sun.direction)))) / kPi;
-    return light * rgbOf(surface.albedo) * (area ? lamp.radiance : rgbOf(sun.irradiance));
+    const double seen = glm::dot(n, onFloor(-glm::normalize(camera.ray(x, y))));
+    return light * coat.share(seen) * rgbOf(surface.albedo) *
+           (area ? lamp.radiance : rgbOf(sun.irradiance));
   };
   Finding finding(1);
   compare(context, finding, scene, view, kWeightedNoise, want);

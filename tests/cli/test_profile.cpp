@@ -40,6 +40,7 @@ TEST(Profile, BadInput) {
     EXPECT_NE(result.err.find("--seconds"), std::string::npos) << result.err;
   }
   EXPECT_EQ(runGlintmark({"profile", "screen_plane", "--normal-method", "best"}).exit_code, 2);
+  EXPECT_EQ(runGlintmark({"profile", "screen_plane", "--ltc-method", "best"}).exit_code, 2);
 }
 
 TEST(RenderTruth, IsCloserToItselfThanUnfilteredNormals) {

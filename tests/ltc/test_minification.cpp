@@ -93,6 +93,26 @@ TEST(Minification, MultiScaleKeepsItsErrorAndTheOriginalDoesNot) {
   EXPECT_GT(original_error.back(), original_error.front());
 }
 
+// Mixtures see what the mean's length cannot tell.
+TEST(AreaLightFrame, MixturesAreCloserThanOneLobe) {
+  const Scene scene = bumpyScene(true);
+  const View view = lookingDown(30, 12);
+  const TruthImages truth =
+      renderTruth(testBench().device, scene, view, smallFrame(), kTruthSpp, {}, 2);
+  ShadingOptions options = smallFrame();
+  const auto distance = [&](LtcMethod method) {
+    options.ltc_method = method;
+    const Image image = shaded(scene, view, options);
+    double sum = 0;
+    for (std::size_t i = 0; i < image.pixels.size() / 4; ++i)
+      sum += std::abs(image.pixels[4 * i] - truth.mean.pixels[4 * i]);
+    return sum;
+  };
+  const double one_lobe = distance(LtcMethod::kExact);
+  EXPECT_LT(distance(LtcMethod::kMixture), one_lobe);
+  EXPECT_NEAR(meanOf(shaded(scene, view, options)) / meanOf(truth.mean), 1, 0.15);
+}
+
 TEST(AreaLightFrame, SmoothFloorIsTheMonteCarloTruth) {
   const Scene scene = bumpyScene(false);
   const View view = lookingDown(30);
@@ -145,6 +165,12 @@ TEST(AreaLightFrame, ScenesDecideTheSwitches) {
   EXPECT_EQ(config.light_vertices, 4);
   EXPECT_EQ(config.ltc_method, LtcMethod::kExact);
   EXPECT_TRUE(config.planes.has(Plane::kDepth));
+  ShadingOptions options = smallFrame();
+  options.ltc_method = LtcMethod::kMixture;
+  const KernelConfig mixture = configFor(scene.materials[0], scene, options, 16);
+  EXPECT_EQ(mixture.ltc_method, LtcMethod::kMixture);
+  EXPECT_EQ(mixture.normal_method, NormalMethod::kGmm);
+  EXPECT_EQ(mixture.lobes, scene.materials[0].normal_map->lobes);
   scene.area_lights[0].texture = paintLightTexture("checker", 16);
   EXPECT_TRUE(configFor(scene.materials[0], scene, smallFrame(), 16).light_texture);
   scene.area_lights.clear();

@@ -147,12 +147,19 @@ AreaLightBuffers::AreaLightBuffers(Device& device, const Scene& scene, const glm
 }
 
 const AreaLightBuffers::Table& AreaLightBuffers::table(const KernelConfig& config) {
-  const auto key = std::pair(config.ggx, config.ltc_half);
+  const bool mixture = config.ltc_method == LtcMethod::kMixture;
+  const auto key = std::tuple(config.ggx, config.ltc_half, mixture);
   const auto found = tables_.find(key);
   if (found != tables_.end()) return found->second;
   const reference::Ndf ndf = config.ggx ? reference::Ndf::kGgx : reference::Ndf::kBeckmann;
   const bool own = own_table_ && own_table_->ndf == ndf;
-  const LtcTable loaded = own ? *own_table_ : shippedLtcTable(ndf);
+  LtcTable loaded = own ? *own_table_ : shippedLtcTable(ndf);
+  if (mixture) {
+    // That of the normals stands behind it, at the same size.
+    LtcTable normals = shippedLtcTable(reference::Ndf::kNormals);
+    if (normals.size != loaded.size) normals = resizedLtcTable(normals, loaded.size);
+    loaded.values.insert(loaded.values.end(), normals.values.begin(), normals.values.end());
+  }
   constexpr BufferPurpose kPurpose = BufferPurpose::kCosineTable;
   Table made{config.ltc_half ? upload(device_, toHalves(loaded.values), kPurpose)
                              : upload(device_, loaded.values, kPurpose),

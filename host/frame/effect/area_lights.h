@@ -5,7 +5,7 @@
 #include <map>
 #include <memory>
 #include <span>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include "host/core/shared_types.h"
@@ -57,7 +57,8 @@ class AreaLightBuffers {
   uint light_count_ = 0;
   Buffer lights_, layouts_, texels_;
   std::shared_ptr<const LtcTable> own_table_;
-  std::map<std::pair<bool, bool>, Table> tables_;  // by "is GGX" and "is in half precision"
+  // By "is GGX", "is in half precision" and "has that of normals behind it".
+  std::map<std::tuple<bool, bool, bool>, Table> tables_;
 };
 
 }  // namespace glintmark

@@ -4,9 +4,21 @@
 namespace glintmark {
 namespace {
 
+int lobesOf(const ProgramCall& call) {
+  return call.options.lobes > 0 ? call.options.lobes : call.material.normal_map->lobes;
+}
+
 void chooseMultiscale(const ProgramCall& call, KernelConfig& config) {
   if (call.truth || !config.ltc || !config.normal_map) return;
   config.ltc_method = call.options.ltc_method;
+  if (config.ltc_method == LtcMethod::kMixture) {
+    // Both kinds of lights read mixtures then.
+    config.normal_method = NormalMethod::kGmm;
+    config.lobes = lobesOf(call);
+    config.half_texels = call.options.half_texels;
+    config.anisotropy = call.options.anisotropy;
+    return;
+  }
   // Area lights read mean normals, and so do the methods mip and toksvig.
   if (config.normal_method != NormalMethod::kMip) config.normal_method = NormalMethod::kToksvig;
   config.lobes = 1;

@@ -1,6 +1,9 @@
 #include "host/frame/effect/normal_maps.h"
 
+#include <algorithm>
+
 #include "host/core/error.h"
+#include "host/filter/interpolated_normals.h"
 #include "host/filter/normal_moments.h"
 #include "host/mixture/fournier_peaks.h"
 #include "host/mixture/half_mixtures.h"
@@ -33,18 +36,36 @@ NormalTexture uploadTexture(Device& device, const MipTexels& texels) {
                        static_cast<std::size_t>(texels.vectors) * sizeof(float4));
 }
 
+// Without the finest level.
+MipTexels coarserLevels(const MipTexels& chain) {
+  MipTexels rest{makeMipTexture(chain.levelWidth(1), chain.levelHeight(1)), chain.vectors, {}};
+  const auto skipped = static_cast<std::ptrdiff_t>(chain.layout.first[1]) * chain.vectors;
+  rest.texels.assign(chain.texels.begin() + skipped, chain.texels.end());
+  return rest;
+}
+
+// Mixtures of the normals that lie between the map's texels as well as on them.
+NormalMixtures interpolatedMixtures(const NormalMap& map, const MixtureOptions& options,
+                                    const DiskCache& cache) {
+  NormalMixtures mixtures =
+      cachedNormalMixtures(interpolatedNormals(map, 2), options, cache).mixtures;
+  mixtures.moments = coarserLevels(mixtures.moments);
+  return mixtures;
+}
+
 NormalTexture uploadMixtures(Device& device, const NormalMap& map, int lobes, bool half,
-                             MixtureOrder order, int iterations) {
+                             MixtureOrder order, int iterations, bool interpolated) {
   const MixtureOptions options = mixtureOptions(lobes, order, iterations);
-  const NormalMixtures mixtures =
-      cachedNormalMixtures(map, options, DiskCache::fromEnvironment()).mixtures;
+  const DiskCache cache = DiskCache::fromEnvironment();
+  const NormalMixtures mixtures = interpolated ? interpolatedMixtures(map, options, cache)
+                                               : cachedNormalMixtures(map, options, cache).mixtures;
   if (!half) return uploadTexture(device, mixtures.moments);
   return uploadTexture(device, mixtures.moments.layout, packHalfMixtures(mixtures),
                        static_cast<std::size_t>(lobes) * 4 * sizeof(std::uint16_t));
 }
 
 NormalTexture makeTexture(Device& device, const NormalMap& map, NormalMethod method, int lobes,
-                          bool half, MixtureOrder order, int iterations) {
+                          bool half, MixtureOrder order, int iterations, bool interpolated) {
   switch (method) {
     case NormalMethod::kFixed:
       return uploadTexture(device, finestNormals(map));
@@ -56,7 +77,7 @@ NormalTexture makeTexture(Device& device, const NormalMap& map, NormalMethod met
     case NormalMethod::kFournier:
       return uploadTexture(device, fournierPeaks(map));
     case NormalMethod::kGmm:
-      return uploadMixtures(device, map, lobes, half, order, iterations);
+      return uploadMixtures(device, map, lobes, half, order, iterations, interpolated);
   }
   throw Error("the normal method is unknown; it must be 0 (mip) to 5 (gmm)");
 }
@@ -76,17 +97,21 @@ const NormalTexture& NormalTextures::get(const std::shared_ptr<const NormalMap>&
   NormalMethod method = config.normal_method;
   if (method == NormalMethod::kMip) method = NormalMethod::kToksvig;
   const bool gmm = method == NormalMethod::kGmm;
+  // Maps that cannot be twice as large are fitted to their texels.
+  const bool interpolated = gmm && config.ltc_method == LtcMethod::kMixture &&
+                            2 * std::max(map->width_px, map->height_px) <= kMaxNormalMapSize_px;
   const Key key = {map,
                    method,
                    gmm ? config.lobes : 0,
                    gmm && config.half_texels,
                    gmm ? order : MixtureOrder::kColours,
-                   gmm ? iterations : 0};
+                   gmm ? iterations : 0,
+                   interpolated};
   const auto found = textures_.find(key);
   if (found != textures_.end()) return found->second;
   return textures_
       .emplace(key, makeTexture(device_, *map, method, config.lobes, config.half_texels, order,
-                                iterations))
+                                iterations, interpolated))
       .first->second;
 }
 

@@ -38,8 +38,8 @@ class NormalTextures {
   std::size_t bytes() const;
 
  private:
-  using Key =
-      std::tuple<std::shared_ptr<const NormalMap>, NormalMethod, int, bool, MixtureOrder, int>;
+  using Key = std::tuple<std::shared_ptr<const NormalMap>, NormalMethod, int, bool, MixtureOrder,
+                         int, bool>;
   Device& device_;
   std::map<Key, NormalTexture> textures_;
 };

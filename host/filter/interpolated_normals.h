@@ -1,0 +1,12 @@
+// A normal map as it is seen close up: interpolated between its texels.
+#pragma once
+#include "host/filter/normal_map.h"
+
+namespace glintmark {
+
+/// The map at `factor` (>= 1) times the resolution: every texel's normal is what bilinear
+/// interpolation, repeated at the borders and made unit, gives at its centre. Normals that cancel
+/// are replaced by (0, 0, 1).
+NormalMap interpolatedNormals(const NormalMap& map, int factor);
+
+}  // namespace glintmark
