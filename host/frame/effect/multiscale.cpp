@@ -12,6 +12,8 @@ void chooseMultiscale(const ProgramCall& call, KernelConfig& config) {
   config.lobes = 1;
   config.half_texels = false;
   config.anisotropy = call.options.anisotropy;
+  config.probes_across = call.options.probes_across;
+  config.peaks = KernelConfig{}.peaks;
 }
 
 }  // namespace

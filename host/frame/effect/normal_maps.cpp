@@ -54,7 +54,7 @@ NormalTexture makeTexture(Device& device, const NormalMap& map, NormalMethod met
     case NormalMethod::kLean:
       return uploadTexture(device, leanMoments(map));
     case NormalMethod::kFournier:
-      return uploadTexture(device, fournierPeaks(map));
+      return uploadTexture(device, fournierPeaks(map, lobes));
     case NormalMethod::kGmm:
       return uploadMixtures(device, map, lobes, half, order, iterations);
   }
@@ -76,17 +76,18 @@ const NormalTexture& NormalTextures::get(const std::shared_ptr<const NormalMap>&
   NormalMethod method = config.normal_method;
   if (method == NormalMethod::kMip) method = NormalMethod::kToksvig;
   const bool gmm = method == NormalMethod::kGmm;
+  const int lobes = gmm ? config.lobes : method == NormalMethod::kFournier ? config.peaks : 0;
   const Key key = {map,
                    method,
-                   gmm ? config.lobes : 0,
+                   lobes,
                    gmm && config.half_texels,
                    gmm ? order : MixtureOrder::kColours,
                    gmm ? iterations : 0};
   const auto found = textures_.find(key);
   if (found != textures_.end()) return found->second;
   return textures_
-      .emplace(key, makeTexture(device_, *map, method, config.lobes, config.half_texels, order,
-                                iterations))
+      .emplace(key,
+               makeTexture(device_, *map, method, lobes, config.half_texels, order, iterations))
       .first->second;
 }
 
