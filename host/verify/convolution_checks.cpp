@@ -144,7 +144,8 @@ struct WaveBounds {
 };
 // Tents and levels in a row have a parallelogram's second moment, not its shape: at worst 0.1 of a
 // wave that is damped to a third. Rows have its shape too.
-constexpr WaveBounds kOneRow{0.11, 0.01}, kTwoRows{0.016, 0.0015}, kFourRows{0.011, 0.0008};
+constexpr WaveBounds kOneRowBounds{0.11, 0.01}, kTwoRowBounds{0.016, 0.0015},
+    kFourRowBounds{0.011, 0.0008};
 
 // Footprints up to a tenth of the texture, up to 16 times as long as wide, turned and sheared.
 Finding footprints(const CheckContext& context, int rows, const WaveBounds& bounds) {
@@ -195,11 +196,11 @@ std::vector<Check> convolutionChecks() {
           {"lobe/convolution_wide", "error over the brightest",
            [](const CheckContext& context) { return lobes(context, wide, 0.1); }},
           {"texture/parallelogram", "error of waves of 1",
-           [](const CheckContext& context) { return footprints(context, 1, kOneRow); }},
+           [](const CheckContext& context) { return footprints(context, 1, kOneRowBounds); }},
           {"texture/parallelogram_2_rows", "error of waves of 1",
-           [](const CheckContext& context) { return footprints(context, 2, kTwoRows); }},
+           [](const CheckContext& context) { return footprints(context, 2, kTwoRowBounds); }},
           {"texture/parallelogram_4_rows", "error of waves of 1",
-           [](const CheckContext& context) { return footprints(context, 4, kFourRows); }}};
+           [](const CheckContext& context) { return footprints(context, 4, kFourRowBounds); }}};
 }
 
 }  // namespace glintmark
