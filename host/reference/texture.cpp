@@ -65,7 +65,9 @@ ProbeGrid footprintProbes(int width, int height, int level_count, const glm::dve
   const glm::dvec2 minor = std::cos(t) * dy - std::sin(t) * dx;
   const double length = glm::length(major), breadth = glm::length(minor);
   // What rows may not be finer than.
-  const double bound = std::max(length * most.rows / most.count, most.least_texels * kProbeTexels);
+  const int most_in_rows = std::min(most.count, 2 * most.rows * most.rows);
+  const double bound =
+      std::max(length * most.rows / most_in_rows, most.least_texels * kProbeTexels);
   const double row =
       most.rows == 1 ? breadth : std::max(breadth / most.rows, std::min(breadth, bound));
   const double probe = std::max({row, length / most.count, kProbeTexels});

@@ -24,7 +24,7 @@ struct ProbeGrid {
   double margin = 1;  // how near a count or the choice of directions was to being another
 };
 
-/// Most probes along a footprint, also of all rows where there are several, most rows across, and
+/// Most probes along a footprint, most rows across (all of them up to twice as long as wide), and
 /// how wide probes in rows are at least, in units of sqrt(3) texels.
 struct ProbeLimits {
   int count = 1, rows = 1;

@@ -147,7 +147,7 @@ const std::vector<Tan05Method>& tan05Methods() {
       {"toksvig", NormalMethod::kToksvig},
       {"lean", NormalMethod::kLean},
       {"fournier", NormalMethod::kFournier},
-      {.name = "fournier_4", .method = NormalMethod::kFournier, .peaks = 4},
+      {.name = "peaks_4", .method = NormalMethod::kFournier, .peaks = 4},
       {"mip", NormalMethod::kMip},
       {"fixed", NormalMethod::kFixed}};
   return methods;

@@ -21,7 +21,7 @@ struct Tan05Method {
 };
 /// In the order in which they are measured and printed; "one_row" are mixtures by one row of
 /// probes, a trilinear lookup where a footprint is round, as the paper's; "unaligned" are mixtures
-/// fitted without regard to their neighbours, [TAN05] Figs. 5 and 6; "fournier_4" has four peaks.
+/// fitted without regard to their neighbours, [TAN05] Figs. 5 and 6; "peaks_4" has four peaks.
 const std::vector<Tan05Method>& tan05Methods();
 
 struct Tan05Settings {
