@@ -95,7 +95,7 @@ WIDE SurfaceSample sampleSurface(const PixelSurface* surface, uint index,
 #if NORMAL_MAP
   const vuint u = surface->u + uvFraction(fma(surface->dudx, s.sx, surface->dudy * s.sy));
   const vuint v = surface->v + uvFraction(fma(surface->dvdx, s.sx, surface->dvdy * s.sy));
-  const ProbeLine probe = singleProbe(map, u, v, (vfloat)(0.0f));
+  const ProbeGrid probe = singleProbe(map, u, v, (vfloat)(0.0f));
   vfloat4 mean;
   fetchTexels1(map, normals, &probe, TEXTURE_REPEAT, &mean);
   const vfloat3 bent = {mean.x, mean.y, mean.z};

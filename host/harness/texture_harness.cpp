@@ -61,7 +61,7 @@ std::vector<TexturePixel> randomFootprints(std::size_t n, std::uint32_t seed) {
 
 std::vector<FetchedTexel> fetchPixels(KernelBench& bench, const TestTexture& texture,
                                       int texel_size, const std::vector<TexturePixel>& pixels,
-                                      int most_probes, bool repeat, int width) {
+                                      const reference::ProbeLimits& most, bool repeat, int width) {
   const std::size_t n = paddedCount(pixels.size());
   std::vector<std::uint32_t> planes(6 * n);
   for (std::size_t i = 0; i < n; ++i) {
@@ -73,14 +73,16 @@ std::vector<FetchedTexel> fetchPixels(KernelBench& bench, const TestTexture& tex
       planes[(2 + d) * n + i] = std::bit_cast<std::uint32_t>(derivatives[d]);
   }
   const std::size_t components = 4 * static_cast<std::size_t>(texel_size);
-  std::vector<float> words((components + 3) * n);
+  std::vector<float> words((components + 4) * n);
   Buffer out(bench.device, words.size() * 4, BufferPurpose::kProbe);
   const std::vector<KernelArg> args = {probeData(bench, std::vector{texture.header}),
                                        probeData(bench, texture.texels),
                                        probeData(bench, planes),
                                        out,
                                        static_cast<std::uint32_t>(n),
-                                       most_probes,
+                                       most.count,
+                                       most.rows,
+                                       static_cast<float>(most.least_texels),
                                        repeat ? kTextureRepeat : kTextureClamp};
   probeKernel(bench, "probes/probe_texture.cl", "probeTexture",
               fmt::format("-D WIDTH={} -D PROBE_TEXEL_SIZE={}", width, texel_size))
@@ -91,8 +93,9 @@ std::vector<FetchedTexel> fetchPixels(KernelBench& bench, const TestTexture& tex
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     for (std::size_t c = 0; c < components; ++c) fetched[i].values.push_back(words[c * n + i]);
     fetched[i].count = static_cast<int>(words[components * n + i]);
-    fetched[i].level = words[(components + 1) * n + i];
-    fetched[i].true_spread = words[(components + 2) * n + i];
+    fetched[i].rows = static_cast<int>(words[(components + 1) * n + i]);
+    fetched[i].level = words[(components + 2) * n + i];
+    fetched[i].true_spread = words[(components + 3) * n + i];
   }
   return fetched;
 }

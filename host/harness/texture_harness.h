@@ -31,7 +31,7 @@ std::vector<TexturePixel> randomFootprints(std::size_t n, std::uint32_t seed);
 
 struct FetchedTexel {
   std::vector<float> values;
-  int count = 0;
+  int count = 0, rows = 0;  // probes of a row, and rows
   float level = 0;
   float true_spread = 0;  // share of the finest texels' variance that lies under the footprint
 };
@@ -39,6 +39,6 @@ struct FetchedTexel {
 /// The device's fetch at `width` lanes.
 std::vector<FetchedTexel> fetchPixels(KernelBench& bench, const TestTexture& texture,
                                       int texel_size, const std::vector<TexturePixel>& pixels,
-                                      int most_probes, bool repeat, int width);
+                                      const reference::ProbeLimits& most, bool repeat, int width);
 
 }  // namespace glintmark

@@ -51,7 +51,7 @@ void buildMesh(const MeshPlan& plan, const SceneRequest& request, Scene& scene) 
         materialOf(built.parts[i], plan.rules, has_own ? first_of_file + i : 0));
   }
   for (std::uint32_t& index : built.mesh.triangle_materials) index = material_of_part[index];
-  for (glm::dvec2& uv : built.mesh.uvs) uv *= plan.uv_scale;
+  for (glm::dvec2& uv : built.mesh.uvs) uv = uv * plan.uv_scale + plan.uv_offset;
   checkMesh(built.mesh, plan.source);
   computeTangents(built.mesh);
   scene.mesh = std::move(built.mesh);

@@ -86,6 +86,7 @@ void useAsset(MeshPlan& plan, const Asset& asset, const fs::path& file,
               const ImportOptions& options) {
   useFile(plan, file, options);
   plan.uv_scale = asset.uv_scale;
+  plan.uv_offset = glm::dvec2(0);
   plan.rules = asset.rules;
   plan.own_views = asset.views;
 }
@@ -98,6 +99,7 @@ MeshPlan readMesh(SceneTable& root, const SceneRequest& request,
   if (!mesh) root.fail("mesh", "is missing, expected [mesh] with a generator or a file");
   MeshPlan plan;
   plan.uv_scale = mesh->number("uv_scale", 1, kPositive);
+  plan.uv_offset = mesh->vector2("uv_offset", {0, 0}, kFinite);
   plan.rules = readParts(mesh->table("parts"), materials);
   const std::string file = mesh->text("file"), generator = mesh->text("generator");
   if (file.empty() && generator.empty()) {

@@ -43,6 +43,7 @@ struct MeshPlan {
   std::function<PartMesh()> build;
   std::string source;           // for messages: a file, or "generator car"
   double uv_scale = 1;          // uv units per uv unit of the source
+  glm::dvec2 uv_offset{0, 0};   // added after that [uv]
   std::vector<PartRule> rules;  // the closest match counts; no match: material 0
   std::vector<View> own_views;  // of the asset: they replace the scene's views of the same names
   std::string missing_asset;    // looked for in the asset folder and not found

@@ -163,6 +163,21 @@ TEST(SceneMeshes, UvScaleMultiplies) {
   for (std::size_t v = 0; v < once.uvs.size(); ++v) EXPECT_EQ(twice.uvs[v], once.uvs[v] * 2.0);
 }
 
+TEST(SceneMeshes, UvOffsetIsAddedAfterTheScale) {
+  const TriangleMesh once = load("screen_plane").mesh;
+  const TriangleMesh moved =
+      load("screen_plane", {"mesh.uv_scale=2", "mesh.uv_offset=[0.5, -3]"}).mesh;
+  for (std::size_t v = 0; v < once.uvs.size(); ++v)
+    EXPECT_EQ(moved.uvs[v], once.uvs[v] * 2.0 + glm::dvec2(0.5, -3));
+}
+
+// The carved disk's map is drawn around (0.5, 0.5): one whole disk lies on its plane.
+TEST(SceneMeshes, TheDiskIsOneDisk) {
+  const TriangleMesh disk = load("disk").mesh;
+  for (const glm::dvec2& uv : disk.uvs)
+    for (int axis = 0; axis < 2; ++axis) EXPECT_TRUE(uv[axis] == 0 || uv[axis] == 1) << uv[axis];
+}
+
 TEST(CarMesh, WallsStandBehindTheCarAndFaceIt) {
   const Scene scene = load("mixed");
   const auto wall = std::ranges::find(scene.materials, "wall", &Material::name);

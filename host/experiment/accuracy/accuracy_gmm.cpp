@@ -34,11 +34,18 @@ std::vector<AccuracySetting> gmmSettings() {
     add(fmt::format("alignment={}", mixtureOrderName(order)),
         order == ShadingOptions{}.mixture_order,
         [order](ShadingOptions& o) { o.mixture_order = order; });
-  knobs.moveTo(all, {"probes", "texels"});
+  knobs.moveTo(all, {"probes", "probes_across", "texels"});
   for (const int iterations : kIterations)
     add(fmt::format("fit_iterations={}", iterations), iterations == MixtureOptions{}.max_iterations,
         [iterations](ShadingOptions& o) { o.mixture_iterations = iterations; });
   knobs.moveRestTo(all);
+  for (const int peaks : switchNamed("PEAKS").sweep.values)
+    all.push_back({fmt::format("peaks={}", peaks),
+                   [peaks](ShadingOptions& o) {
+                     o.normal_method = NormalMethod::kFournier;
+                     o.peaks = peaks;
+                   },
+                   kAccuracyRival});
   for (const int samples : kSupersamples)
     all.push_back({fmt::format("supersamples={}", samples), {}, kAccuracySampled, samples});
   return all;

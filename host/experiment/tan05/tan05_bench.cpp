@@ -46,7 +46,7 @@ std::vector<std::string> viewCases(const BenchOptions& options) {
 std::vector<std::string> distanceCases(const BenchOptions& options) {
   std::vector<std::string> cases;
   for (const std::string& scene : selectNames(tan05Scenes(), options.scenes))
-    for (const int distance : kTan05Distances)
+    for (const double distance : kTan05Distances)
       for (const Tan05Method& method : tan05Methods())
         cases.push_back(CaseName{{scene, tan05DistanceView(distance), method.name}}.text());
   return cases;
@@ -83,7 +83,7 @@ class ViewMeasurer {
       // Half the paper's size and half the distance: the same texels per pixel.
       settings.shading.width_px = settings.shading.height_px = kDistanceSize_px;
       settings.truth_spp = kDistanceTruthSpp;
-      const int factor = tan05DistanceOf(wanted.word(1)).value();
+      const double factor = tan05DistanceOf(wanted.word(1)).value();
       const View moved =
           atDistance(loaded.scene.view(std::string(kTan05DistanceBase)), 0.5 * factor);
       return measureTan05Distance(run_, loaded, moved, wanted.word(1), settings);

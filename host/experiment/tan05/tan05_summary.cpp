@@ -37,8 +37,9 @@ ShadingOptions fullOptions(const BenchRun& run, NormalMethod method) {
 // Bytes of texels that the fetch reads, mean over the covered pixels. The lanes of a work-item read
 // together: as many probes as the one that needs most, and two levels, eight texels, if one of them
 // blends two; what a lane does not need it reads with weight 0.
-double bytesPerPixel(const PixelPlanes& planes, const NormalMap& map, int most_probes,
-                     std::size_t texel_bytes, std::uint32_t lanes) {
+double bytesPerPixel(const PixelPlanes& planes, const NormalMap& map,
+                     const reference::ProbeLimits& most, std::size_t texel_bytes,
+                     std::uint32_t lanes) {
   const auto u = planes.plane(Plane::kUFrac), v = planes.plane(Plane::kVFrac);
   const auto dudx = planes.plane<float>(Plane::kDudx), dvdx = planes.plane<float>(Plane::kDvdx);
   const auto dudy = planes.plane<float>(Plane::kDudy), dvdy = planes.plane<float>(Plane::kDvdy);
@@ -47,15 +48,16 @@ double bytesPerPixel(const PixelPlanes& planes, const NormalMap& map, int most_p
   for (const PixelList& list : planes.lists)
     for (std::uint32_t first = 0; first < list.count; first += lanes) {
       const std::uint32_t count = std::min(lanes, list.count - first);
-      int probes = 1, texels_each = 4;
+      int probes = 1, rows = 1, texels_each = 4;
       for (std::uint32_t i = list.offset + first; i < list.offset + first + count; ++i) {
-        const reference::ProbeLine line = reference::footprintProbes(
+        const reference::ProbeGrid grid = reference::footprintProbes(
             map.width_px, map.height_px, levels, {u[i] * kFraction, v[i] * kFraction},
-            {{dudx[i], dvdx[i]}, {dudy[i], dvdy[i]}}, most_probes);
-        probes = std::max(probes, line.count);
-        if (line.level > std::floor(line.level)) texels_each = 8;
+            {{dudx[i], dvdx[i]}, {dudy[i], dvdy[i]}}, most);
+        probes = std::max(probes, grid.count);
+        rows = std::max(rows, grid.rows);
+        if (grid.level > std::floor(grid.level)) texels_each = 8;
       }
-      texels += static_cast<double>(count) * probes * texels_each;
+      texels += static_cast<double>(count) * probes * rows * texels_each;
       pixels += count;
     }
   return pixels > 0 ? texels * static_cast<double>(texel_bytes) / pixels : 0;
@@ -79,7 +81,8 @@ double mixtureBytes(const BenchRun& run, const FrameRenderer& renderer, const Ta
                     const ShadingOptions& options) {
   const int lobes =
       options.lobes > 0 ? options.lobes : scene.scene.materials.front().normal_map->lobes;
-  return bytesPerPixel(renderer.planes(), firstMap(scene), options.anisotropy,
+  return bytesPerPixel(renderer.planes(), firstMap(scene),
+                       {options.anisotropy, options.probes_across, std::sqrt(lobes)},
                        static_cast<std::size_t>(lobes) * sizeof(float4),
                        static_cast<std::uint32_t>(run.info().width));
 }
@@ -134,13 +137,19 @@ const std::vector<std::string>& tan05SummaryMetrics() {
 std::vector<Record> measureTan05Summary(BenchRun& run, const Tan05Scene& scene) {
   const View& view = scene.scene.view(kSummaryView);
   const Repetitions reps = run.reps();
-  const ShadingOptions options = fullOptions(run, NormalMethod::kGmm);
+  // One row of probes, as the paper's filter: what its ratios are of.
+  const auto one_row = [&](NormalMethod method) {
+    ShadingOptions options = fullOptions(run, method);
+    options.probes_across = 1;
+    return options;
+  };
+  const ShadingOptions options = one_row(NormalMethod::kGmm);
   const auto frame = [&](const ShadingOptions& chosen) {
     return preparedFrame(run, scene.scene, view, chosen, scene.textures);
   };
   const auto gmm = frame(options);
-  const auto toksvig = frame(fullOptions(run, NormalMethod::kToksvig));
-  const auto fournier = frame(fullOptions(run, NormalMethod::kFournier));
+  const auto toksvig = frame(one_row(NormalMethod::kToksvig));
+  const auto fournier = frame(one_row(NormalMethod::kFournier));
   ShadingOptions half_options = options, narrow_options = options;
   half_options.half_texels = true;
   narrow_options.lanes = 1;

@@ -18,12 +18,13 @@ std::optional<double> tan05PaperError(std::string_view case_name);
 /// The paper's frames per second at 500x500 on a GeForce 6800 GT, or nothing. [TAN05] Sect. 5
 std::optional<double> tan05PaperFps(std::string_view case_name);
 
-/// Factors on a view's distance at which errors are taken.
-inline constexpr int kTan05Distances[] = {1, 2, 4, 8, 16, 32, 64};
-/// How cases name the view at a distance: "near_8".
-std::string tan05DistanceView(int factor);
+/// Factors on a view's distance at which errors are taken, of the disk texels a pixel: none a power
+/// of two or whole, so that pixels and texels of no level are in step.
+inline constexpr double kTan05Distances[] = {1.3, 2.7, 5.3, 9.1, 13.7, 23.3, 45.7};
+/// How cases name the view at a distance: "near_9.1".
+std::string tan05DistanceView(double factor);
 /// Its inverse; nothing of another view.
-std::optional<int> tan05DistanceOf(std::string_view view);
+std::optional<double> tan05DistanceOf(std::string_view view);
 inline constexpr std::string_view kTan05DistanceBase = "near";
 
 /// The paper's time for the mixtures of a 512x512 map, four lobes: five minutes [ms].

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/core/angles.h"
 #include "host/experiment/frame_timing.h"
 #include "host/experiment/frame_truth.h"
 #include "host/experiment/tan05/tan05_table.h"
@@ -51,6 +52,8 @@ std::unique_ptr<FrameRenderer> methodFrame(BenchRun& run, const Tan05Scene& scen
   ShadingOptions options = settings.shading;
   options.normal_method = method.method;
   options.mixture_order = method.order;
+  options.peaks = method.peaks;
+  if (method.probes_across > 0) options.probes_across = method.probes_across;
   return preparedFrame(run, scene.scene, view, options, scene.textures);
 }
 
@@ -89,16 +92,41 @@ Image comparison(const std::vector<std::pair<std::string, Image>>& pictures) {
   return pictureStrip(all);
 }
 
-void addErrors(BenchRun& run, const Scene& scene, const std::string& case_name, const Image& image,
-               const Truth& truth, std::vector<Record>& records) {
-  const double error = isSane(image) ? colourError(coveredDisplay(image, scene),
-                                                   coveredDisplay(truth.radiance, scene))
-                                     : 1;
-  Record record = run.record(tan05Spec(), case_name, "colour_error", {error});
-  record.paper = tan05PaperError(case_name);
-  records.push_back(record);
-  records.push_back(run.record(tan05Spec(), case_name, "truth_stderr", {truth.standard_error}));
-  if (isSane(image) && truth.standard_error < 1) return;
+// How wrong a picture is, or the mean over several.
+struct Tan05Errors {
+  double colour = 0, bias = 0, rel_mse = 0, truth_stderr = 0;
+  bool sane = true;
+};
+
+Tan05Errors errorsOf(const Scene& scene, const Image& image, const Truth& truth) {
+  if (!isSane(image) || truth.standard_error >= 1) return {1, 0, 1, truth.standard_error, false};
+  const Image row = coveredPixels(image), right = coveredPixels(truth.radiance);
+  return {colourError(display(row, scene), display(right, scene)), relativeBias(row, right),
+          relMse(row, right), truth.standard_error, true};
+}
+
+Tan05Errors meanErrors(const std::vector<Tan05Errors>& errors) {
+  Tan05Errors mean;
+  for (const Tan05Errors& one : errors) {
+    for (const auto member : {&Tan05Errors::colour, &Tan05Errors::bias, &Tan05Errors::rel_mse,
+                              &Tan05Errors::truth_stderr})
+      mean.*member += one.*member / static_cast<double>(errors.size());
+    mean.sane = mean.sane && one.sane;
+  }
+  return mean;
+}
+
+void addErrors(BenchRun& run, const std::string& case_name, const Tan05Errors& errors,
+               std::vector<Record>& records) {
+  const auto add = [&](const char* metric, double value) {
+    records.push_back(run.record(tan05Spec(), case_name, metric, {value}));
+  };
+  add("colour_error", errors.colour);
+  records.back().paper = tan05PaperError(case_name);
+  add("bias", errors.bias);
+  add("rel_mse", errors.rel_mse);
+  add("truth_stderr", errors.truth_stderr);
+  if (errors.sane) return;
   for (Record& bad : records) {
     bad.valid = false;
     bad.note = "not valid: radiance values are negative or not finite";
@@ -115,23 +143,27 @@ std::vector<double> inverse(std::vector<double> samples_ms) {
 const std::vector<Tan05Method>& tan05Methods() {
   static const std::vector<Tan05Method> methods = {
       {"gmm", NormalMethod::kGmm},
+      {.name = "one_row", .method = NormalMethod::kGmm, .probes_across = 1},
       {"unaligned", NormalMethod::kGmm, MixtureOrder::kIndependent},
       {"toksvig", NormalMethod::kToksvig},
       {"lean", NormalMethod::kLean},
       {"fournier", NormalMethod::kFournier},
+      {.name = "peaks_4", .method = NormalMethod::kFournier, .peaks = 4},
       {"mip", NormalMethod::kMip},
       {"fixed", NormalMethod::kFixed}};
   return methods;
 }
 
 const std::vector<std::string>& tan05ViewMetrics() {
-  static const std::vector<std::string> metrics = {"shading_ms", "fps", "frame_to_frame_error",
-                                                   "colour_error", "truth_stderr"};
+  static const std::vector<std::string> metrics = {"shading_ms",   "fps",  "frame_to_frame_error",
+                                                   "colour_error", "bias", "rel_mse",
+                                                   "truth_stderr"};
   return metrics;
 }
 
 const std::vector<std::string>& tan05DistanceMetrics() {
-  static const std::vector<std::string> metrics = {"colour_error", "truth_stderr"};
+  static const std::vector<std::string> metrics = {"colour_error", "bias", "rel_mse",
+                                                   "truth_stderr"};
   return metrics;
 }
 
@@ -155,6 +187,18 @@ View atDistance(const View& view, double factor) {
   Orbit orbit = *view.orbit;
   orbit.distance *= factor;
   return orbitView(view, orbit);
+}
+
+View shiftedView(const View& view, double right_px, double up_px, int height_px) {
+  const glm::dvec3 forward = view.target - view.eye;
+  const glm::dvec3 right = glm::normalize(glm::cross(forward, view.up));
+  const glm::dvec3 up = glm::normalize(glm::cross(right, forward));
+  const double pixel =
+      2 * glm::length(forward) * std::tan(0.5 * kDegree * view.fov_y_deg) / height_px;
+  View moved = view;
+  for (glm::dvec3* place : {&moved.eye, &moved.target})
+    *place += pixel * (right_px * right + up_px * up);
+  return moved;
 }
 
 Tan05View measureTan05View(BenchRun& run, const Tan05Scene& scene, const View& view,
@@ -188,7 +232,7 @@ Tan05View measureTan05View(BenchRun& run, const Tan05Scene& scene, const View& v
     records.back().paper = tan05PaperFps(name);
     records.push_back(
         run.record(tan05Spec(), name, "frame_to_frame_error", frameToFrame(zoom, truth_zoom)));
-    addErrors(run, scene.scene, name, images[m], truth, records);
+    addErrors(run, name, errorsOf(scene.scene, images[m], truth), records);
   }
   result.picture = comparison(pictures);
   return result;
@@ -196,12 +240,18 @@ Tan05View measureTan05View(BenchRun& run, const Tan05Scene& scene, const View& v
 
 Tan05View measureTan05Distance(BenchRun& run, const Tan05Scene& scene, const View& view,
                                const std::string& view_name, const Tan05Settings& settings) {
-  const Truth truth = measureTruth(run, scene, view, settings);
+  std::map<std::string, std::vector<Tan05Errors>> errors;
+  for (const auto& [right_px, up_px] : kTan05Shifts_px) {
+    const View shifted = shiftedView(view, right_px, up_px, settings.shading.height_px);
+    const Truth truth = measureTruth(run, scene, shifted, settings);
+    for (const Tan05Method& method : tan05Methods())
+      errors[method.name].push_back(errorsOf(
+          scene.scene, methodFrame(run, scene, shifted, settings, method)->readRadiance(), truth));
+  }
   Tan05View result;
   for (const Tan05Method& method : tan05Methods()) {
-    const auto renderer = methodFrame(run, scene, view, settings, method);
     const std::string name = CaseName{{scene.scene.name, view_name, method.name}}.text();
-    addErrors(run, scene.scene, name, renderer->readRadiance(), truth, result.records[method.name]);
+    addErrors(run, name, meanErrors(errors[method.name]), result.records[method.name]);
   }
   return result;
 }

@@ -16,9 +16,12 @@ struct Tan05Method {
   const char* name;
   NormalMethod method;
   MixtureOrder order = MixtureOrder::kColours;
+  int peaks = 7;
+  int probes_across = 0;  // 0: the default
 };
-/// In the order in which they are measured and printed; "unaligned" are mixtures fitted without
-/// regard to their neighbours, [TAN05] Figs. 5 and 6.
+/// In the order in which they are measured and printed; "one_row" are mixtures by one row of
+/// probes, a trilinear lookup where a footprint is round, as the paper's; "unaligned" are mixtures
+/// fitted without regard to their neighbours, [TAN05] Figs. 5 and 6; "peaks_4" has four peaks.
 const std::vector<Tan05Method>& tan05Methods();
 
 struct Tan05Settings {
@@ -32,7 +35,7 @@ inline constexpr int kZoomFrames = 4;
 inline constexpr double kZoomStep = 1.02;
 
 const std::vector<std::string>& tan05ViewMetrics();
-/// Of a view at some distance: errors only.
+/// Of a view at some distance: errors only, means over kTan05Shifts_px.
 const std::vector<std::string>& tan05DistanceMetrics();
 
 /// What one scene's views share: the scene and its filtered maps.
@@ -48,13 +51,20 @@ struct Tan05View {
   Image picture;
 };
 
+/// Shifts of the picture that errors at a distance are means over, in pixels: however pixels and
+/// texels lie, some of them lie otherwise.
+inline constexpr double kTan05Shifts_px[][2] = {{0, 0}, {0.5, 0.25}, {0.25, 0.75}, {0.75, 0.5}};
+/// `view` with eye and target moved across by so many pixels of a picture `height_px` high, as they
+/// are at the target's distance.
+View shiftedView(const View& view, double right_px, double up_px, int height_px);
+
 /// `view` farther away by `factor`, its orbit's distance or its eye's.
 View atDistance(const View& view, double factor);
 
 /// Times, errors and frame-to-frame errors of a view; cases are named scene/view/method.
 Tan05View measureTan05View(BenchRun& run, const Tan05Scene& scene, const View& view,
                            const Tan05Settings& settings);
-/// Errors alone; `view_name` stands in the cases' names.
+/// Errors alone, means over the shifts; `view_name` stands in the cases' names.
 Tan05View measureTan05Distance(BenchRun& run, const Tan05Scene& scene, const View& view,
                                const std::string& view_name, const Tan05Settings& settings);
 

@@ -17,6 +17,7 @@ void chooseMultiscale(const ProgramCall& call, KernelConfig& config) {
     config.lobes = lobesOf(call);
     config.half_texels = call.options.half_texels;
     config.anisotropy = call.options.anisotropy;
+    config.probes_across = call.options.probes_across;
     return;
   }
   // Area lights read mean normals, and so do the methods mip and toksvig.
@@ -24,6 +25,8 @@ void chooseMultiscale(const ProgramCall& call, KernelConfig& config) {
   config.lobes = 1;
   config.half_texels = false;
   config.anisotropy = call.options.anisotropy;
+  config.probes_across = call.options.probes_across;
+  config.peaks = KernelConfig{}.peaks;
 }
 
 }  // namespace

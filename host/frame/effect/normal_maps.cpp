@@ -75,7 +75,7 @@ NormalTexture makeTexture(Device& device, const NormalMap& map, NormalMethod met
     case NormalMethod::kLean:
       return uploadTexture(device, leanMoments(map));
     case NormalMethod::kFournier:
-      return uploadTexture(device, fournierPeaks(map));
+      return uploadTexture(device, fournierPeaks(map, lobes));
     case NormalMethod::kGmm:
       return uploadMixtures(device, map, lobes, half, order, iterations, interpolated);
   }
@@ -100,9 +100,10 @@ const NormalTexture& NormalTextures::get(const std::shared_ptr<const NormalMap>&
   // Maps that cannot be twice as large are fitted to their texels.
   const bool interpolated = gmm && config.ltc_method == LtcMethod::kMixture &&
                             2 * std::max(map->width_px, map->height_px) <= kMaxNormalMapSize_px;
+  const int lobes = gmm ? config.lobes : method == NormalMethod::kFournier ? config.peaks : 0;
   const Key key = {map,
                    method,
-                   gmm ? config.lobes : 0,
+                   lobes,
                    gmm && config.half_texels,
                    gmm ? order : MixtureOrder::kColours,
                    gmm ? iterations : 0,
@@ -110,8 +111,8 @@ const NormalTexture& NormalTextures::get(const std::shared_ptr<const NormalMap>&
   const auto found = textures_.find(key);
   if (found != textures_.end()) return found->second;
   return textures_
-      .emplace(key, makeTexture(device_, *map, method, config.lobes, config.half_texels, order,
-                                iterations, interpolated))
+      .emplace(key, makeTexture(device_, *map, method, lobes, config.half_texels, order, iterations,
+                                interpolated))
       .first->second;
 }
 

@@ -22,10 +22,12 @@ void chooseNormals(const ProgramCall& call, KernelConfig& config) {
     config.lobes = call.options.lobes > 0 ? call.options.lobes : source->lobes;
   else
     config.half_texels = false;
-  // Fournier's peaks are not filtered, so his method knows no anisotropic filter.
-  if (config.normal_method == NormalMethod::kFixed ||
-      config.normal_method == NormalMethod::kFournier)
-    config.anisotropy = 1;
+  if (config.normal_method == NormalMethod::kFixed) config.anisotropy = config.probes_across = 1;
+  // Fournier's peaks are not filtered but evaluated, those of each probe: no more than rows need.
+  if (config.normal_method == NormalMethod::kFournier)
+    config.anisotropy = config.probes_across * config.probes_across;
+  else
+    config.peaks = KernelConfig{}.peaks;
 }
 
 bool normalsAgree(const KernelConfig& a, const KernelConfig& b) {
