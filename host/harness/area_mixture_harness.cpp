@@ -61,9 +61,10 @@ std::vector<glm::vec3> lightMixtures(KernelBench& bench, const MaterialParams& m
                                        static_cast<std::uint32_t>(stride)};
   probeKernel(bench, "probes/probe_area_mixture.cl", "probeAreaMixture",
               fmt::format("-D WIDTH={} -D LTC=1 -D NORMAL_MAP=1 -D LTC_METHOD={} -D LOBES={} "
-                          "-D LIGHT_VERTICES={} -D DIFFUSE={:d}",
+                          "-D LIGHT_VERTICES={} -D DIFFUSE={:d} -D ALBEDO_SCALING={:d}",
                           lanes, static_cast<int>(LtcMethod::kMixture), points.front().lobes.size(),
-                          vertices, material.surface.albedo.x > 0))
+                          vertices, material.surface.albedo.x > 0,
+                          material.surface.albedo.x > 0 && material.surface.intensity > 0))
       .launch(args, stride / static_cast<std::size_t>(lanes), kLocalSize);
   std::vector<float> values(3 * stride);
   out.read(values.data(), values.size() * 4);

@@ -10,5 +10,5 @@ struct HitsHeader {
   std::uint32_t count;           // hits, a multiple of 64
   std::uint32_t material_bytes;  // of MaterialParams
   float irradiance[4];
-  unsigned char material[208];
+  unsigned char material[288];
 };
