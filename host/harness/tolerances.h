@@ -107,7 +107,8 @@ inline constexpr double kSameLobe = 2e-4;
 /// A hemisphere of light against the table's albedo: the light is 2e5 wide, not infinite, and the
 /// scale of the lobe was fitted.
 inline constexpr double kHemisphereAlbedo = 2e-3;
-/// Diffuse and specular lobe reflect at most everything together, and table cells overshoot a little.
+/// Diffuse and specular lobe reflect at most everything together, and table cells overshoot a
+/// little.
 inline constexpr double kMostReflected = 1.005;
 /// Roughness from the length of a mean normal by the published polynomials, in single precision.
 inline constexpr double kMesoAlpha = 1e-5;
@@ -142,8 +143,8 @@ inline constexpr double kFrameError = 1e-5;
 /// Energy that metals get back, of all: a polynomial of the eighth degree, and the albedo of the
 /// rational fit of Smith's Lambda, good to 0.35 % of G1.
 inline constexpr double kCompensationTolerance = 6e-3;
-/// Energy of a diffuse layer and a lobe above it, of all: two polynomials of the seventh degree, and
-/// sums over 4096 directions.
+/// Energy of a diffuse layer and a lobe above it, of all: two polynomials of the seventh degree,
+/// and sums over 4096 directions.
 inline constexpr double kCouplingTolerance = 5e-3;
 
 /// A footprint that holds a whole map, relative. One tilted normal: rounding and the rational fit

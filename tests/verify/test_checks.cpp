@@ -1,12 +1,9 @@
-// Every check of `glintmark verify`, at one lane and at the device's own count; those that compare
-// lanes at all counts.
+// Every check of `glintmark verify`, group by group.
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <limits>
-#include <ostream>
 #include <set>
 
 #include "host/core/error.h"
@@ -16,51 +13,53 @@
 namespace glintmark {
 namespace {
 
-constexpr int kDeviceLanes = 0;
-
-struct CheckCase {
-  Check check;
-  int lanes;  // kDeviceLanes: as the device prefers
-};
-
-void PrintTo(const CheckCase& c, std::ostream* out) {
-  *out << c.check.name;
+// Which lanes a check runs at: one and the device's own count; one that compares lanes at all.
+std::vector<int> lanesOf(const Check& check) {
+  const int device_lanes = testBench().device.info().default_lanes;
+  if (check.name.find("same_bits") != std::string::npos) return {4, 8, device_lanes};
+  return {1, device_lanes};
 }
 
-std::vector<CheckCase> allCases() {
-  std::vector<CheckCase> cases;
+std::string groupOf(const Check& check) {
+  return check.name.substr(0, check.name.find('/'));
+}
+
+std::vector<std::string> allGroups() {
+  std::vector<std::string> groups;
+  for (const Check& check : allChecks())
+    if (std::ranges::find(groups, groupOf(check)) == groups.end()) groups.push_back(groupOf(check));
+  return groups;
+}
+
+// A group is a test and a process: its checks share programs, which take longer to compile than to
+// run.
+class CheckGroups : public testing::TestWithParam<std::string> {};
+
+TEST_P(CheckGroups, Pass) {
+  int skipped = 0, run = 0;
+  std::string reason;
   for (const Check& check : allChecks()) {
-    const bool compares_lanes = check.name.find("same_bits") != std::string::npos;
-    if (compares_lanes)
-      cases.insert(cases.end(), {{check, 4}, {check, 8}});
-    else
-      cases.push_back({check, 1});
-    cases.push_back({check, kDeviceLanes});
+    if (groupOf(check) != GetParam()) continue;
+    for (const int lanes : lanesOf(check)) {
+      const CheckResult result = runCheck(check, {testBench(), lanes});
+      ++run;
+      if (result.verdict == Verdict::kSkipped) {
+        ++skipped;
+        reason = result.note;
+        continue;
+      }
+      EXPECT_EQ(result.verdict, Verdict::kPass)
+          << check.name << " at " << lanes << " lanes, " << check.measure << ": " << result.worst
+          << ", bound " << result.bound << "; " << result.note;
+    }
   }
-  return cases;
+  if (skipped == run) GTEST_SKIP() << reason;
 }
 
-std::string nameOf(const testing::TestParamInfo<CheckCase>& info) {
-  std::string name = info.param.check.name;
-  std::ranges::replace_if(
-      name, [](unsigned char c) { return !std::isalnum(c); }, '_');
-  return name + (info.param.lanes == kDeviceLanes ? "_device_lanes"
-                                                  : "_lanes_" + std::to_string(info.param.lanes));
-}
-
-class Checks : public testing::TestWithParam<CheckCase> {};
-
-TEST_P(Checks, Pass) {
-  const auto& [check, chosen_lanes] = GetParam();
-  const int lanes =
-      chosen_lanes == kDeviceLanes ? testBench().device.info().default_lanes : chosen_lanes;
-  const CheckResult result = runCheck(check, {testBench(), lanes});
-  if (result.verdict == Verdict::kSkipped) GTEST_SKIP() << result.note;
-  EXPECT_EQ(result.verdict, Verdict::kPass)
-      << check.measure << ": " << result.worst << ", bound " << result.bound << "; " << result.note;
-}
-
-INSTANTIATE_TEST_SUITE_P(All, Checks, testing::ValuesIn(allCases()), nameOf);
+INSTANTIATE_TEST_SUITE_P(All, CheckGroups, testing::ValuesIn(allGroups()),
+                         [](const testing::TestParamInfo<std::string>& info) {
+                           return info.param;
+                         });
 
 TEST(CheckNames, AreUniqueAndFitTheTable) {
   std::set<std::string> names;

@@ -17,7 +17,7 @@ struct alignas(16) float4 {
 #include <glint/glint_grids.h>
 }  // namespace
 
-static_assert(sizeof(MaterialParams) == 208);
+static_assert(sizeof(MaterialParams) == 288);
 
 // The compression of grooves four times as rough one way as the other.
 float compressionOfGrooves() {
