@@ -110,6 +110,9 @@ void noteMaterial(MitsubaScene& to, const Material& material) {
   const float4& f0 = material.params.surface.f0;
   if (std::min({f0.x, f0.y, f0.z}) < kWhole)
     note("Fresnel's term is exact for an index that has the same f0, here it is Schlick's");
+  const float4& albedo = material.params.surface.albedo;
+  if (std::max({albedo.x, albedo.y, albedo.z}) > 0)
+    note("its diffuse layer gets all of the light, here what the lobe above it leaves");
   if (material.normal_map)
     note("mapped normals that turn from the eye are black, here they scatter diffuse light");
   const float2& alpha = material.params.surface.alpha_g;
