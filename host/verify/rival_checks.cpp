@@ -68,10 +68,10 @@ double rivalMean(const std::vector<double>& values) {
 double gatedMean(double n, bool as_published) {
   const double p = kRivalProbability, gate = -std::expm1(n * std::log1p(-p));
   const double mean = (n - 1) * p, sigma = std::sqrt(std::max(mean * (1 - p), 0.0));
-  constexpr int kSteps = 4000;
+  constexpr int kGaussianSteps = 4000;
   double sum = 0, weights = 0;
-  for (int i = 0; i <= kSteps; ++i) {
-    const double z = -6 + 12.0 * i / kSteps, weight = std::exp(-0.5 * z * z);
+  for (int i = 0; i <= kGaussianSteps; ++i) {
+    const double z = -6 + 12.0 * i / kGaussianSteps, weight = std::exp(-0.5 * z * z);
     const double x = mean + sigma * z;
     sum += weight * (as_published ? 1 + std::clamp(std::floor(x), 0.0, n)
                                   : std::clamp(1 + x, 1.0, std::max(n, 1.0)));
