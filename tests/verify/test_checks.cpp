@@ -57,9 +57,7 @@ TEST_P(CheckGroups, Pass) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, CheckGroups, testing::ValuesIn(allGroups()),
-                         [](const testing::TestParamInfo<std::string>& info) {
-                           return info.param;
-                         });
+                         [](const auto& group) { return group.param; });
 
 TEST(CheckNames, AreUniqueAndFitTheTable) {
   std::set<std::string> names;
