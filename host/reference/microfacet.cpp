@@ -62,14 +62,17 @@ double microfacetTimesCosine(Ndf ndf, const glm::dvec3& i, const glm::dvec3& o, 
 
 namespace {
 
-// Integral of weight(o.m) times the BRDF times i.z over i, for one o.
-template <typename Weight>
-double lobeIntegral(Ndf ndf, double mu, double alpha, SmithForm form, Weight&& weight) {
+struct LobeIntegrals {
+  double mirror = 0, schlick = 0;
+};
+
+// Integrals of the BRDF times i.z over i for one o, at a Fresnel term of 1 and of (1 - o.m)^5.
+LobeIntegrals lobeIntegrals(Ndf ndf, double mu, double alpha, SmithForm form) {
   // Normals m with quantile u of their slope and azimuth phi: d m = 1 / (D m.z) d(u, phi / 2 pi),
   // and d i = 4 o.m d m. GGX: slope^2 = alpha^2 u / (1 - u); Beckmann: -alpha^2 log(1 - u).
   constexpr int kSlopes = 192, kAzimuths = 96;  // azimuths over half a turn
   const glm::dvec3 o(std::sqrt(std::max(1 - mu * mu, 0.0)), 0, mu);
-  double sum = 0;
+  LobeIntegrals sum;
   for (int k = 0; k < kSlopes; ++k) {
     const double u = (k + 0.5) / kSlopes;
     const double slope_sq = ndf == Ndf::kGgx ? u / (1 - u) : -std::log1p(-u);
@@ -81,30 +84,26 @@ double lobeIntegral(Ndf ndf, double mu, double alpha, SmithForm form, Weight&& w
       const double cosine = glm::dot(o, m);
       if (cosine <= 0) continue;
       const glm::dvec3 i = 2 * cosine * m - o;
-      sum += weight(cosine) * microfacetTimesCosine(ndf, i, o, alpha, form) * 4 * cosine /
-             (microfacetDensity(ndf, m, alpha) * m.z);
+      const double value = microfacetTimesCosine(ndf, i, o, alpha, form) * 4 * cosine /
+                           (microfacetDensity(ndf, m, alpha) * m.z);
+      sum.mirror += value;
+      sum.schlick += value * std::pow(1 - std::min(cosine, 1.0), 5);
     }
   }
-  return sum / (kSlopes * kAzimuths);
+  return {sum.mirror / (kSlopes * kAzimuths), sum.schlick / (kSlopes * kAzimuths)};
 }
 
 }  // namespace
 
 double microfacetAlbedo(Ndf ndf, double mu, double alpha, SmithForm form) {
-  return lobeIntegral(ndf, mu, alpha, form, [](double) { return 1.0; });
-}
-
-double microfacetSchlickAlbedo(Ndf ndf, double mu, double alpha, SmithForm form) {
-  return lobeIntegral(ndf, mu, alpha, form,
-                      [](double cosine) { return std::pow(1 - std::min(cosine, 1.0), 5); });
+  return lobeIntegrals(ndf, mu, alpha, form).mirror;
 }
 
 CoatedDiffuse::CoatedDiffuse(Ndf ndf, double alpha, const glm::dvec3& f0, double intensity) {
   constexpr int kCosines = 128;
   for (int i = 0; i < kCosines; ++i) {
     const double mu = std::max(static_cast<double>(i) / (kCosines - 1), 1e-4);
-    const double mirror = microfacetAlbedo(ndf, mu, alpha);
-    const double schlick = microfacetSchlickAlbedo(ndf, mu, alpha);
+    const auto [mirror, schlick] = lobeIntegrals(ndf, mu, alpha, SmithForm::kExact);
     shares_.push_back(glm::max(1.0 - intensity * (f0 * (mirror - schlick) + schlick), 0.0));
   }
 }
