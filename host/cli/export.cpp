@@ -5,6 +5,7 @@
 
 #include "host/cli/command_line.h"
 #include "host/core/atomic_file.h"
+#include "host/core/error.h"
 #include "host/export/mitsuba_scene.h"
 
 namespace glintmark {
