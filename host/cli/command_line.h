@@ -18,6 +18,7 @@ void addRenderCommand(Command app, CommandLine& line);
 void addExportCommand(Command app, CommandLine& line);
 void addHeatmapCommand(Command app, CommandLine& line);
 void addAccuracyCommand(Command app, CommandLine& line);
+void addScaleCommand(Command app, CommandLine& line);
 void addBenchCommand(Command app, CommandLine& line);
 void addSimulateCommand(Command app, CommandLine& line);
 void addFitCommand(Command app, CommandLine& line);

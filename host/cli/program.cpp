@@ -61,6 +61,7 @@ int runProgram(int argc, const char* const* argv) {
   addExportCommand(app, line);
   addBenchCommand(app, line);
   addAccuracyCommand(app, line);
+  addScaleCommand(app, line);
   addSimulateCommand(app, line);
   addFitCommand(app, line);
   addCompareCommand(app, line);

@@ -1,7 +1,9 @@
 #include "host/experiment/session.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <charconv>
 
 #include "host/core/error.h"
@@ -61,9 +63,9 @@ ImageSize parseSize(const std::string& text) {
 
 void prepareDrivers(const CommonOptions& common) {
   const int lanes = common.lanes;
-  if (lanes != 0 && lanes != 1 && lanes != 4 && lanes != 8 && lanes != 16) {
-    throw Error(fmt::format("--width {} is not a lane count; use 1, 4, 8 or 16", lanes));
-  }
+  if (lanes != 0 && std::ranges::find(kLaneCounts, lanes) == kLaneCounts.end())
+    throw Error(
+        fmt::format("--width {} is not a lane count; use {}", lanes, fmt::join(kLaneCounts, ", ")));
   parseTimer(common.timer);
   const std::string note = prepareDriverCache();
   if (!note.empty() && !common.quiet) fmt::print(stderr, "note: {}\n", note);

@@ -1,5 +1,6 @@
 // What every measurement needs of the program around it: the common options, the device, a scene.
 #pragma once
+#include <array>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,9 @@
 #include "host/scene/load_scene.h"
 
 namespace glintmark {
+
+/// Lanes that kernels come in.
+inline constexpr std::array kLaneCounts = {1, 4, 8, 16};
 
 /// Options that stand before or after any subcommand.
 struct CommonOptions {

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <utility>
+#include <vector>
 
+#include "host/ocl/driver_death.h"
 #include "host/ocl/platforms.h"
 
 namespace glintmark {
@@ -45,6 +47,12 @@ Device::Device(const std::string& selector, TimerChoice timer) : impl_(std::make
   const DeviceInfo& info = impl_->info;
   if (!info.problem.empty())
     throw DeviceError(fmt::format("device '{}' cannot be used: {}", info.name, info.problem));
+  open(timer);
+}
+
+void Device::open(TimerChoice timer) {
+  const DeviceInfo& info = impl_->info;
+  const DriverDeath death;
   impl_->clock = std::make_shared<DeviceClock>(timer, info.timer_resolution_ns, info.name);
   try {
     impl_->context = cl::Context(impl_->device);
@@ -54,6 +62,32 @@ Device::Device(const std::string& selector, TimerChoice timer) : impl_(std::make
   }
 }
 
+Device Device::part(unsigned compute_units) const {
+  const DeviceInfo& whole = impl_->info;
+  const auto refused = [&](const std::string& why) {
+    return DeviceError(fmt::format("device '{}' gives no part of {} of its {} compute units: {}",
+                                   whole.name, compute_units, whole.compute_units, why));
+  };
+  if (compute_units < 1 || compute_units > whole.compute_units) throw refused("it has not so many");
+  Device part(std::make_unique<Impl>());
+  part.impl_->info = whole;
+  part.impl_->info.compute_units = compute_units;
+  std::vector<cl::Device> parts;
+  const cl_device_partition_property counts[] = {
+      CL_DEVICE_PARTITION_BY_COUNTS, static_cast<cl_device_partition_property>(compute_units),
+      CL_DEVICE_PARTITION_BY_COUNTS_LIST_END, 0};
+  try {
+    cl::Device(impl_->device).createSubDevices(counts, &parts);
+  } catch (const cl::Error& error) {
+    throw refused(openClError("clCreateSubDevices", error).what());
+  }
+  if (parts.empty()) throw refused("the driver returned none");
+  part.impl_->device = parts.front();
+  part.open(impl_->clock->choice());
+  return part;
+}
+
+Device::Device(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Device::~Device() = default;
 Device::Device(Device&&) noexcept = default;
 Device& Device::operator=(Device&&) noexcept = default;

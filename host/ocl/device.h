@@ -84,6 +84,11 @@ class Device {
 
   const DeviceInfo& info() const;
 
+  /// Some of this device's compute units as a device of its own, with context and queue; clocks and
+  /// buffers are its own, too. Throws DeviceError if it has not so many or the driver cannot divide
+  /// it.
+  Device part(unsigned compute_units) const;
+
   /// Buffers of this device, those that wrap host memory included. Safe from any thread.
   BufferUse bufferUse() const;
   /// Forgets what has been freed: peaks become what is held now.
@@ -96,6 +101,9 @@ class Device {
   Impl& impl() { return *impl_; }  // for host/ocl only
 
  private:
+  explicit Device(std::unique_ptr<Impl> impl);
+  void open(TimerChoice timer);
+
   std::unique_ptr<Impl> impl_;
 };
 

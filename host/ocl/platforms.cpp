@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "host/core/atomic_file.h"
+#include "host/ocl/driver_death.h"
 
 namespace glintmark {
 namespace {
@@ -145,6 +146,7 @@ std::vector<std::string> brokenDrivers() {
 }
 
 FoundPlatforms findPlatforms() {
+  const DriverDeath death;
   FoundPlatforms found;
   for (const cl::Platform& platform : allPlatforms(found.list.problem)) {
     PlatformInfo info;

@@ -17,10 +17,15 @@
 //   no_arg_info       parameters of kernels have no names
 //   resources=KERNEL  launches of it fail with CL_OUT_OF_RESOURCES
 //   crash=KERNEL      the process dies at its launch
-//   exit=KERNEL       the process ends with exit code 7 at its launch; exit=opening: when a queue
-//   is made stall=KERNEL      its launch never ends platforms=none    there is no platform; =empty:
-//   the first has no devices; =broken: its driver
-//                     fails; =ghost: a second platform, which fails, stands before the first
+//   exit=KERNEL       the process ends with exit code 7 at its launch
+//   exit=opening      the same when a queue is made
+//   abort=opening     it aborts there
+//   abort=looking     it aborts when platforms are asked for
+//   stall=KERNEL      its launch never ends
+//   platforms=none    there is no platform
+//   platforms=empty   the first has no devices
+//   platforms=broken  its driver fails
+//   platforms=ghost   a second platform, which fails, stands before the first
 //   twins             every device is listed twice
 #pragma once
 #include <optional>

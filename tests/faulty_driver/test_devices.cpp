@@ -95,6 +95,15 @@ TEST(Info, SaysWhyThereIsNoDevice) {
             std::string::npos);
 }
 
+TEST(Info, SaysThatADriverAborted) {
+  for (const char* faults : {"abort=looking", "abort=opening"}) {
+    const ProcessResult result = runFaulty({"info"}, faults);
+    EXPECT_EQ(result.exit_code, 3) << faults;
+    EXPECT_NE(result.err.find("an OpenCL driver ended the program"), std::string::npos)
+        << result.err;
+  }
+}
+
 TEST(Info, NamesADriverThatCannotBeLoaded) {
   const TempFolder folder;
   writeFile(folder / "missing.icd", "/no/such/libdriver.so\n");

@@ -75,6 +75,17 @@ TEST(Device, IsUsableAfterAMove) {
   EXPECT_NO_THROW(Buffer(moved, 16, BufferPurpose::kProbe));
 }
 
+TEST(Device, GivesSomeOfItsComputeUnits) {
+  const Device device;
+  const unsigned all = device.info().compute_units;
+  Device part = device.part(1);
+  EXPECT_EQ(part.info().compute_units, 1u);
+  EXPECT_EQ(part.impl().device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>(), 1u);
+  EXPECT_NO_THROW(Buffer(part, 16, BufferPurpose::kProbe));
+  EXPECT_THROW(device.part(0), DeviceError);
+  EXPECT_THROW(device.part(all + 1), DeviceError);
+}
+
 // The loader reads OCL_ICD_VENDORS once per process, hence a process of its own.
 TEST(DeviceDeathTest, NoPlatformIsAnEmptyListAndASentenceThatNamesThePackage) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
