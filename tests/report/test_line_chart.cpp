@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "host/core/error.h"
 #include "host/report/picture/line_chart.h"
@@ -65,6 +66,40 @@ TEST(LineChart, RefusesWhatItCannotDraw) {
   EXPECT_THROW(lineChart({}, kOptions), Error);
   EXPECT_THROW(lineChart({{"t", {{"s", kRed, {0, 1}, {1}}}}}, kOptions), Error);
   EXPECT_THROW(lineChart({{"t", {}, 1, 1}}, kOptions), Error);
+}
+
+// Equal factors are equal lengths, and what is not above 0 has no place.
+TEST(LineChart, LogarithmicAxesKeepFactors) {
+  ChartOptions options = kOptions;
+  options.scale = ChartScale::kLogarithmic;
+  options.y_low = 0.01;
+  options.y_high = 100;
+  const auto middle = [&](double value) {
+    const Extent e = extentOf(
+        lineChart({{"t", {{"s", kRed, {value}, {value}, true}}, 0.01, 100}}, options), kRed, 120);
+    return std::pair((e.left + e.right) / 2.0, (e.top + e.bottom) / 2.0);
+  };
+  const auto [x0, y0] = middle(0.1);
+  const auto [x1, y1] = middle(1);
+  const auto [x2, y2] = middle(10);
+  EXPECT_NEAR(x2 - x1, x1 - x0, 1);
+  EXPECT_NEAR(y1 - y2, y0 - y1, 1);
+  EXPECT_GT(x1 - x0, 25);
+  EXPECT_EQ(
+      extentOf(lineChart({{"t", {{"s", kRed, {1}, {0}, true}}, 0.01, 100}}, options), kRed, 120)
+          .count,
+      0);
+  EXPECT_THROW(lineChart({{"t", {}, 0, 1}}, options), Error);
+}
+
+// Pixels and SVG are drawn by the same calls; what SVG adds is its syntax.
+TEST(LineChart, SvgHasTheSamePointsAndItsTextEscaped) {
+  const std::string svg = lineChartSvg({{"a < b & c", {{"s", kRed, {0, 1}, {0, 1}}}}}, kOptions);
+  EXPECT_TRUE(svg.starts_with("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"200\"")) << svg;
+  EXPECT_TRUE(svg.ends_with("</svg>\n"));
+  EXPECT_NE(svg.find(">a &lt; b &amp; c</text>"), std::string::npos);
+  EXPECT_NE(svg.find("stroke=\"#ff0000\""), std::string::npos);
+  EXPECT_NE(svg.find("points=\"46.00,96.00 184.00,30.00\""), std::string::npos) << svg;
 }
 
 TEST(PictureColumn, StacksPicturesOfAnyWidth) {

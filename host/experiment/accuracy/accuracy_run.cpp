@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "host/core/error.h"
+#include "host/experiment/accuracy/accuracy_chart.h"
 #include "host/experiment/accuracy/accuracy_effect.h"
 #include "host/experiment/accuracy/accuracy_table.h"
 #include "host/experiment/all_tables.h"
@@ -138,6 +139,7 @@ int runAccuracy(const Session& session, const AccuracySelection& selection, Benc
   }
   run.addDerived(accuracyDerived(run.recordsOf(accuracySpec().name)));
   const std::vector<Record> records = run.recordsOf(accuracySpec().name);
+  writeAccuracyCharts(records, run.folder());
   return run.finish(headText(run) + accuracyTableText(records) + closer + left_out +
                     invalidText(records));
 }

@@ -236,6 +236,12 @@ const TableSpec& accuracySpec() {
            {"motion_swing", "1"}},
       .cost_ratios = {"time_ratio"},
       .headline = Headline{"pareto", "settings on the front of accuracy against time", true},
+      .pictures = {{.kind = PictureGroup::Kind::kHidden,
+                    .pictures = {{"accuracy_glints.png", "Error of glints over time"},
+                                 {"accuracy_ltc.png", "Error of area lights over time"},
+                                 {"accuracy_gmm.png", "Error of mixtures of normals over time"},
+                                 {"accuracy_msbrdf.png",
+                                  "Error of multiple scattering over time"}}}},
       .section = accuracyHtml,
   };
   return spec;

@@ -44,7 +44,7 @@ void measure(BenchRun& run) {
                    bind(measureMetal));
   run.measureCases(table, {kAllCase}, {"runtime_ms", "speedup_vs_w1", "fit_ms", "normalised_cost"},
                    [&run](const std::string&) { return measureMsbrdfCost(run); });
-  writePng(energyChart(run.recordsOf(table)), run.folder() / kEnergyPicture);
+  writeEnergyChart(run.recordsOf(table), run.folder());
   writePng(sweepPicture(run), run.folder() / kSweepPicture);
 }
 

@@ -1,6 +1,8 @@
 // Cases of table `msbrdf`: what each measures.
 #pragma once
+#include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -51,8 +53,8 @@ std::vector<Record> measureMetal(BenchRun& run, const std::string& name);
 std::vector<Record> measureMsbrdfCost(BenchRun& run);
 
 /// Energy of orders 2 and 3 over roughness and incidence: models as lines, the records of
-/// energy/... as dots.
-Image energyChart(std::span<const Record> records);
+/// energy/... as dots. Writes kEnergyPicture and the same as SVG into the folder.
+void writeEnergyChart(std::span<const Record> records, const std::filesystem::path& folder);
 /// Rough clay in every model (rows) over roughness (columns).
 Image sweepPicture(BenchRun& run);
 

@@ -214,7 +214,7 @@ ChartPanel energyPanel(std::span<const Record> records, int order, bool over_alp
 
 }  // namespace
 
-Image energyChart(std::span<const Record> records) {
+void writeEnergyChart(std::span<const Record> records, const std::filesystem::path& folder) {
   std::vector<ChartPanel> panels;
   for (const int order : {1, 2, 3}) {
     for (const double theta_deg : {0.0, 60.0})
@@ -222,12 +222,13 @@ Image energyChart(std::span<const Record> records) {
     for (const double alpha : {0.43, 1.0})
       panels.push_back(energyPanel(records, order, false, alpha));
   }
-  return lineChart(panels,
-                   {.columns = 4,
-                    .panel_width_px = 280,
-                    .panel_height_px = 190,
-                    .x_label = "Beckmann roughness, or incidence in degrees",
-                    .y_label = "share of the energy at albedo 1 (EON, order 2: all above 1)"});
+  writeChart(panels,
+             {.columns = 4,
+              .panel_width_px = 280,
+              .panel_height_px = 190,
+              .x_label = "Beckmann roughness, or incidence in degrees",
+              .y_label = "share of the energy at albedo 1 (EON, order 2: all above 1)"},
+             folder / std::filesystem::path(kEnergyPicture).stem());
 }
 
 }  // namespace glintmark
