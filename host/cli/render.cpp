@@ -21,6 +21,7 @@
 #include "host/ocl/switches.h"
 #include "host/report/metrics.h"
 #include "host/report/picture/aov.h"
+#include "host/report/picture/cryptomatte.h"
 #include "host/report/picture/image_io.h"
 #include "host/report/picture/picture_facts.h"
 #include "host/report/picture/star.h"
@@ -229,6 +230,16 @@ int renderPath(const CommandLine& line, const RenderOptions& options, Device& de
   return code;
 }
 
+void writePlanes(const PixelPlanes& planes, const Scene& scene, const std::string& file,
+                 PictureFacts facts) {
+  std::vector<std::string> materials;
+  for (const Material& material : scene.materials) materials.push_back(material.name);
+  Image image = planesToImage(planes);
+  addMaterialMatte(image, materials);
+  for (auto& fact : matteFacts(materials)) facts.push_back(std::move(fact));
+  writeExr(image, file, facts);
+}
+
 int runRender(const CommandLine& line, const RenderOptions& options) {
   const CommonOptions& common = line.common;
   checkRenderOptions(options);
@@ -271,7 +282,7 @@ int runRender(const CommandLine& line, const RenderOptions& options) {
   const int code = judgePicture(radiance, scene, view);
   writeRendered(std::move(radiance), options, scene.post, extension, factsOf(run));
   if (!options.aov_output.empty())
-    writeExr(planesToImage(renderer.planes()), options.aov_output, factsOf(run));
+    writePlanes(renderer.planes(), scene, options.aov_output, factsOf(run));
   printTimes(fmt::format("{}/{} {}x{}", scene.name, view.name, size.width_px, size.height_px),
              prepared, shaded, read.readback_ns, device.clock().timer());
   return code;

@@ -94,7 +94,8 @@ TEST(Render, PngAndPlanes) {
   EXPECT_EQ(readImage(folder / "a.png").width, 65);
   const Image planes = readImage(folder / "planes.exr");
   EXPECT_EQ(planes.height, 37);
-  for (const char* name : {"material", "u.frac", "dudx", "dvdy", "normal.y"}) {
+  for (const char* name :
+       {"material", "u.frac", "dudx", "dvdy", "N.Y", "Z", "uv.X", "crypto_material00.R"}) {
     EXPECT_NE(std::ranges::find(planes.channel_names, name), planes.channel_names.end()) << name;
   }
 }

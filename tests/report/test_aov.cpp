@@ -52,18 +52,19 @@ TEST(Aov, ScattersEveryPlaneToItsPixel) {
   EXPECT_EQ(image.at(1, 1)[channel(image, "material")], -1);
   EXPECT_EQ(image.at(1, 0)[channel(image, "u.int")], -7);
   EXPECT_EQ(image.at(1, 0)[channel(image, "u.frac")], 0.5f);
-  EXPECT_EQ(image.at(1, 0)[channel(image, "depth")], 12.5f);
+  EXPECT_EQ(image.at(1, 0)[channel(image, "uv.X")], -6.5f);
+  EXPECT_EQ(image.at(1, 0)[channel(image, "Z")], 12.5f);
   EXPECT_EQ(image.at(0, 1)[channel(image, "dvdy")], 0.25f);
   EXPECT_EQ(image.at(1, 0)[channel(image, "dvdy")], 0);
-  EXPECT_NEAR(image.at(0, 1)[channel(image, "normal.y")], 1, 1e-6);
-  EXPECT_NEAR(image.at(0, 1)[channel(image, "tangent.x")], 1, 1e-5);
+  EXPECT_NEAR(image.at(0, 1)[channel(image, "N.Y")], 1, 1e-6);
+  EXPECT_NEAR(image.at(0, 1)[channel(image, "T.X")], 1, 1e-5);
 }
 
 TEST(Aov, OnlyThePlanesThereAre) {
   PixelPlanes planes;
   fillSample(planes, {Plane::kPixel, Plane::kDepth});
   const Image image = planesToImage(planes);
-  EXPECT_EQ(image.channel_names, (std::vector<std::string>{"material", "depth"}));
+  EXPECT_EQ(image.channel_names, (std::vector<std::string>{"material", "Z"}));
 }
 
 TEST(Aov, PlanesWithoutPixelPositionsAreAnError) {

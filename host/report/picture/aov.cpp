@@ -40,21 +40,34 @@ void addFraction(std::vector<Source>& sources, const PixelPlanes& planes, Plane 
                      }});
 }
 
+// A whole coordinate, as exact as a float is; both parts stand in channels of their own.
+void addCoordinate(std::vector<Source>& sources, const PixelPlanes& planes, Plane whole,
+                   Plane fraction, const char* name) {
+  if (!planes.mask.has(whole) || !planes.mask.has(fraction)) return;
+  const auto integers = planes.plane<std::int32_t>(whole);
+  const auto fractions = planes.plane(fraction);
+  sources.push_back({{name}, [integers, fractions](std::size_t i, float* out) {
+                       *out = static_cast<float>(integers[i] + fractions[i] * kFractionScale);
+                     }});
+}
+
 void addFrame(std::vector<Source>& sources, const PixelPlanes& planes) {
   if (!planes.mask.has(Plane::kFrame0) || !planes.mask.has(Plane::kFrame1)) return;
   const auto frame0 = planes.plane(Plane::kFrame0), frame1 = planes.plane(Plane::kFrame1);
-  sources.push_back({{"normal.x", "normal.y", "normal.z", "tangent.x", "tangent.y", "tangent.z"},
-                     [frame0, frame1](std::size_t i, float* out) {
-                       const ShadingFrame frame = unpackFrame({frame0[i], frame1[i]});
-                       for (int c = 0; c < 3; ++c) {
-                         out[c] = static_cast<float>(frame.normal[c]);
-                         out[3 + c] = static_cast<float>(frame.tangent[c]);
-                       }
-                     }});
+  sources.push_back(
+      {{"N.X", "N.Y", "N.Z", "T.X", "T.Y", "T.Z"}, [frame0, frame1](std::size_t i, float* out) {
+         const ShadingFrame frame = unpackFrame({frame0[i], frame1[i]});
+         for (int c = 0; c < 3; ++c) {
+           out[c] = static_cast<float>(frame.normal[c]);
+           out[3 + c] = static_cast<float>(frame.tangent[c]);
+         }
+       }});
 }
 
 std::vector<Source> planeSources(const PixelPlanes& planes) {
   std::vector<Source> sources;
+  addCoordinate(sources, planes, Plane::kUInt, Plane::kUFrac, "uv.X");
+  addCoordinate(sources, planes, Plane::kVInt, Plane::kVFrac, "uv.Y");
   addInteger(sources, planes, Plane::kUInt, "u.int");
   addFraction(sources, planes, Plane::kUFrac, "u.frac");
   addInteger(sources, planes, Plane::kVInt, "v.int");
@@ -64,7 +77,7 @@ std::vector<Source> planeSources(const PixelPlanes& planes) {
   addFloat(sources, planes, Plane::kDudy, "dudy");
   addFloat(sources, planes, Plane::kDvdy, "dvdy");
   addFrame(sources, planes);
-  addFloat(sources, planes, Plane::kDepth, "depth");
+  addFloat(sources, planes, Plane::kDepth, "Z");
   return sources;
 }
 
