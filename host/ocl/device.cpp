@@ -71,13 +71,14 @@ Device Device::part(unsigned compute_units) const {
   if (compute_units < 1 || compute_units > whole.compute_units) throw refused("it has not so many");
   Device part(std::make_unique<Impl>());
   part.impl_->info = whole;
-  part.impl_->info.compute_units = compute_units;
   std::vector<cl::Device> parts;
   const cl_device_partition_property counts[] = {
       CL_DEVICE_PARTITION_BY_COUNTS, static_cast<cl_device_partition_property>(compute_units),
       CL_DEVICE_PARTITION_BY_COUNTS_LIST_END, 0};
   try {
     cl::Device(impl_->device).createSubDevices(counts, &parts);
+    if (!parts.empty())
+      part.impl_->info.compute_units = parts.front().getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
   } catch (const cl::Error& error) {
     throw refused(openClError("clCreateSubDevices", error).what());
   }

@@ -183,7 +183,7 @@ Finding publishedHashes(const CheckContext& context) {
   }
   finding.add(others / static_cast<double>(values.size()));
   std::ranges::sort(values);
-  const auto last = std::ranges::unique(values).begin();
+  const auto last = std::unique(values.begin(), values.end());
   const auto distinct = static_cast<double>(last - values.begin());
   finding.require(distinct > 157 && distinct < 5000,
                   fmt::format("a million numbers have {} values", distinct));

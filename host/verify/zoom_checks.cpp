@@ -173,8 +173,9 @@ std::vector<Check> zoomChecks() {
   for (const auto& [name, method] :
        {std::pair("zk16", GlintMethod::kZk16), std::pair("exact", GlintMethod::kExact),
         std::pair("distributed", GlintMethod::kDistributed)}) {
-    const auto add = [&, method = method](const std::string& property, const char* measure,
-                                          Finding (*run)(const CheckContext&, GlintMethod)) {
+    const auto add = [&, name = name, method = method](
+                         const std::string& property, const char* measure,
+                         Finding (*run)(const CheckContext&, GlintMethod)) {
       checks.push_back(
           {fmt::format("zoom/{}_{}", name, property), measure,
            [run, method](const CheckContext& context) { return run(context, method); }});

@@ -80,7 +80,6 @@ TEST(Device, GivesSomeOfItsComputeUnits) {
   const unsigned all = device.info().compute_units;
   Device part = device.part(1);
   EXPECT_EQ(part.info().compute_units, 1u);
-  EXPECT_EQ(part.impl().device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>(), 1u);
   EXPECT_NO_THROW(Buffer(part, 16, BufferPurpose::kProbe));
   EXPECT_THROW(device.part(0), DeviceError);
   EXPECT_THROW(device.part(all + 1), DeviceError);
