@@ -2,17 +2,32 @@
 
 #include <algorithm>
 
+#include "host/filter/interpolated_normals.h"
+
 namespace glintmark {
 namespace {
 
 template <class Channels>
-MipTexels mipMoments(const NormalMap& map, int channels, int vectors, const Channels& write) {
-  checkNormalMap(map);
+MipChain momentChain(const NormalMap& map, int channels, const Channels& write) {
   Image finest(map.width_px, map.height_px, channels);
   for (std::size_t i = 0; i < map.normals.size(); ++i) {
     write(map.normals[i], finest.pixels.data() + i * channels);
   }
-  return packMipChain(makeMipChain(std::move(finest)), vectors);
+  return makeMipChain(std::move(finest));
+}
+
+// The finest level is that of the map's texels, coarser ones are means of what lies between them
+// too.
+template <class Channels>
+MipTexels mipMoments(const NormalMap& map, int channels, int vectors, const Channels& write) {
+  checkNormalMap(map);
+  MipChain chain = momentChain(map, channels, write);
+  if (canInterpolate(map)) {
+    MipChain between = momentChain(interpolatedNormals(map, kSurfaceSamples), channels, write);
+    for (std::size_t level = 1; level < chain.levels.size(); ++level)
+      chain.levels[level] = std::move(between.levels[level + 1]);
+  }
+  return packMipChain(chain, vectors);
 }
 
 }  // namespace

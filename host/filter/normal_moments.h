@@ -1,4 +1,6 @@
-// Linear moments of normals, mip-mapped: what the single-lobe methods read.
+// Linear moments of normals, mip-mapped: what the single-lobe methods read. The finest level holds
+// the map's texels, between which lookups interpolate; coarser ones are means over the surface that
+// this makes, by samples between the texels too (interpolated_normals.h).
 #pragma once
 #include "host/filter/mip_texels.h"
 #include "host/filter/normal_map.h"

@@ -1,6 +1,5 @@
 #include "host/frame/effect/normal_maps.h"
 
-#include <algorithm>
 
 #include "host/core/error.h"
 #include "host/filter/interpolated_normals.h"
@@ -44,11 +43,13 @@ MipTexels coarserLevels(const MipTexels& chain) {
   return rest;
 }
 
-// Mixtures of the normals that lie between the map's texels as well as on them.
-NormalMixtures interpolatedMixtures(const NormalMap& map, const MixtureOptions& options,
+// Mixtures of the surface between the map's texels at the finest level too, where AREA_MIXTURE
+// programs want it.
+NormalMixtures interpolatedMixtures(const NormalMap& map, MixtureOptions options,
                                     const DiskCache& cache) {
+  options.surface = MixtureSurface::kTexels;
   NormalMixtures mixtures =
-      cachedNormalMixtures(interpolatedNormals(map, 2), options, cache).mixtures;
+      cachedNormalMixtures(interpolatedNormals(map, kSurfaceSamples), options, cache).mixtures;
   mixtures.moments = coarserLevels(mixtures.moments);
   return mixtures;
 }
@@ -85,7 +86,7 @@ NormalTexture makeTexture(Device& device, const NormalMap& map, NormalMethod met
 }  // namespace
 
 MixtureOptions mixtureOptions(int lobes, MixtureOrder order, int iterations) {
-  MixtureOptions options{.lobes = lobes, .order = order};
+  MixtureOptions options{.lobes = lobes, .surface = MixtureSurface::kInterpolated, .order = order};
   if (iterations > 0) options.max_iterations = iterations;
   return options;
 }
@@ -98,8 +99,7 @@ const NormalTexture& NormalTextures::get(const std::shared_ptr<const NormalMap>&
   if (method == NormalMethod::kMip) method = NormalMethod::kToksvig;
   const bool gmm = method == NormalMethod::kGmm;
   // Maps that cannot be twice as large are fitted to their texels.
-  const bool interpolated = gmm && config.ltc_method == LtcMethod::kMixture &&
-                            2 * std::max(map->width_px, map->height_px) <= kMaxNormalMapSize_px;
+  const bool interpolated = gmm && config.ltc_method == LtcMethod::kMixture && canInterpolate(*map);
   const int lobes = gmm ? config.lobes : method == NormalMethod::kFournier ? config.peaks : 0;
   const Key key = {map,
                    method,
