@@ -10,7 +10,9 @@ namespace glintmark {
 /// One float4 a texel: mean normal (x, y, z), not made unit, and 0. Its direction is the plain
 /// mip-mapped normal, its length r the evenness of the normals that Toksvig's roughness comes from:
 /// variance per axis (1 - r) / r. [Tok04]
-MipTexels meanNormals(const NormalMap& map);
+/// `between`: whether coarser levels see what lies between texels; without it they are means of the
+/// texels alone.
+MipTexels meanNormals(const NormalMap& map, bool between = true);
 
 /// Slopes steeper than this are laid here, so that one normal near the horizon does not take over
 /// the second moments of every texel above it.

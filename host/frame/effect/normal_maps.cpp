@@ -1,6 +1,5 @@
 #include "host/frame/effect/normal_maps.h"
 
-
 #include "host/core/error.h"
 #include "host/filter/interpolated_normals.h"
 #include "host/filter/normal_moments.h"
@@ -55,30 +54,32 @@ NormalMixtures interpolatedMixtures(const NormalMap& map, MixtureOptions options
 }
 
 NormalTexture uploadMixtures(Device& device, const NormalMap& map, int lobes, bool half,
-                             MixtureOrder order, int iterations, bool interpolated) {
+                             MixtureOrder order, int iterations, bool for_area_lights) {
   const MixtureOptions options = mixtureOptions(lobes, order, iterations);
   const DiskCache cache = DiskCache::fromEnvironment();
-  const NormalMixtures mixtures = interpolated ? interpolatedMixtures(map, options, cache)
-                                               : cachedNormalMixtures(map, options, cache).mixtures;
+  const NormalMixtures mixtures = for_area_lights
+                                      ? interpolatedMixtures(map, options, cache)
+                                      : cachedNormalMixtures(map, options, cache).mixtures;
   if (!half) return uploadTexture(device, mixtures.moments);
   return uploadTexture(device, mixtures.moments.layout, packHalfMixtures(mixtures),
                        static_cast<std::size_t>(lobes) * 4 * sizeof(std::uint16_t));
 }
 
 NormalTexture makeTexture(Device& device, const NormalMap& map, NormalMethod method, int lobes,
-                          bool half, MixtureOrder order, int iterations, bool interpolated) {
+                          bool half, MixtureOrder order, int iterations, bool for_area_lights) {
   switch (method) {
     case NormalMethod::kFixed:
       return uploadTexture(device, finestNormals(map));
     case NormalMethod::kMip:
     case NormalMethod::kToksvig:
-      return uploadTexture(device, meanNormals(map));
+      // One lobe under area lights errs less by means of the texels alone.
+      return uploadTexture(device, meanNormals(map, !for_area_lights));
     case NormalMethod::kLean:
       return uploadTexture(device, leanMoments(map));
     case NormalMethod::kFournier:
       return uploadTexture(device, fournierPeaks(map, lobes));
     case NormalMethod::kGmm:
-      return uploadMixtures(device, map, lobes, half, order, iterations, interpolated);
+      return uploadMixtures(device, map, lobes, half, order, iterations, for_area_lights);
   }
   throw Error("the normal method is unknown; it must be 0 (mip) to 5 (gmm)");
 }
@@ -98,8 +99,9 @@ const NormalTexture& NormalTextures::get(const std::shared_ptr<const NormalMap>&
   NormalMethod method = config.normal_method;
   if (method == NormalMethod::kMip) method = NormalMethod::kToksvig;
   const bool gmm = method == NormalMethod::kGmm;
-  // Maps that cannot be twice as large are fitted to their texels.
-  const bool interpolated = gmm && config.ltc_method == LtcMethod::kMixture && canInterpolate(*map);
+  const bool for_area_lights =
+      gmm ? config.ltc_method == LtcMethod::kMixture && canInterpolate(*map)
+          : config.ltc && method == NormalMethod::kToksvig;
   const int lobes = gmm ? config.lobes : method == NormalMethod::kFournier ? config.peaks : 0;
   const Key key = {map,
                    method,
@@ -107,12 +109,12 @@ const NormalTexture& NormalTextures::get(const std::shared_ptr<const NormalMap>&
                    gmm && config.half_texels,
                    gmm ? order : MixtureOrder::kColours,
                    gmm ? iterations : 0,
-                   interpolated};
+                   for_area_lights};
   const auto found = textures_.find(key);
   if (found != textures_.end()) return found->second;
   return textures_
       .emplace(key, makeTexture(device_, *map, method, lobes, config.half_texels, order, iterations,
-                                interpolated))
+                                for_area_lights))
       .first->second;
 }
 
