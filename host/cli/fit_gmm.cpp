@@ -29,7 +29,7 @@ namespace {
 // widened by: that of a lobe of roughness 0.1. The closed form takes the square of the normals'
 // number.
 constexpr int kErrorLevels = 4;
-constexpr int kErrorPoints = 200;
+constexpr int kErrorPoints = 200, kInterpolatedErrorPoints = 50;
 constexpr double kErrorDeviation = 0.07;
 constexpr int kPictureWidth_px = 1024;
 constexpr int kPictureHeight_px = 256;  // of one strip, at most
@@ -175,9 +175,10 @@ void printLevels(const Fitted& fitted, MixtureSurface surface) {
     const MixtureLevelReport& report = fitted.mixtures.levels[level];
     std::string at = "-", between = "-";
     if (level < kErrorLevels) {
-      const InterpolationError error =
-          measureInterpolation(level == 0 ? fitted.map : finer, fitted.mixtures, level,
-                               kErrorPoints, kErrorDeviation, 1);
+      const bool between_texels = interpolated && level > 0;
+      const InterpolationError error = measureInterpolation(
+          between_texels ? finer : fitted.map, fitted.mixtures, level,
+          between_texels ? kInterpolatedErrorPoints : kErrorPoints, kErrorDeviation, 1);
       at = fmt::format("{:.4f}", error.fitted), between = fmt::format("{:.4f}", error.interpolated);
     }
     table.addRow({std::to_string(level), fmt::format("{}x{}", report.width_px, report.height_px),
