@@ -12,6 +12,7 @@
 #include "host/core/progress.h"
 #include "host/experiment/interrupt.h"
 #include "host/experiment/mixture_picture.h"
+#include "host/filter/interpolated_normals.h"
 #include "host/filter/normal_map_generators.h"
 #include "host/mixture/device_mixture_fit.h"
 #include "host/mixture/mixture_cache.h"
@@ -28,17 +29,19 @@ namespace {
 // widened by: that of a lobe of roughness 0.1. The closed form takes the square of the normals'
 // number.
 constexpr int kErrorLevels = 4;
-constexpr int kErrorPoints = 200;
+constexpr int kErrorPoints = 200, kInterpolatedErrorPoints = 50;
 constexpr double kErrorDeviation = 0.07;
 constexpr int kPictureWidth_px = 1024;
 constexpr int kPictureHeight_px = 256;  // of one strip, at most
 constexpr int kMostIterations = 1000;
 constexpr int kMostPasses = 16;
 constexpr int kMostSeed = 1 << 30;
+// In the order of MixtureSurface.
+const std::vector<std::string> kSurfaces = {"interpolated", "texels"};
 
 struct FitGmmCommand {
   std::string source, scene, material, output, picture, check,
-      order = mixtureOrderName(MixtureOptions{}.order);
+      order = mixtureOrderName(MixtureOptions{}.order), surface = kSurfaces[0];
   std::string content = "auto", green = "up", on = "host";
   int size_px = NormalMapRecipe{}.size_px, seed = 1;
   double height_scale = 0;  // 0: the source's own default
@@ -76,6 +79,8 @@ void checkFitGmm(FitGmmCommand& command) {
   choice("--on", command.on, {"host", "device"});
   requireRange("--seed", command.seed, 0, kMostSeed);
   command.options.order = parseMixtureOrder(command.order);
+  command.options.surface =
+      static_cast<MixtureSurface>(choice("--surface", command.surface, kSurfaces));
   if (!command.output.empty()) requireWritableFile(command.output);
   if (!command.picture.empty()) requireWritablePicture(command.picture);
 }
@@ -158,7 +163,11 @@ Fitted readFitted(const FitGmmCommand& command, NormalMap map) {
   return {std::move(map), std::move(mixtures), false};
 }
 
-void printLevels(const Fitted& fitted) {
+// Levels from the second on are held against what they were fitted to.
+void printLevels(const Fitted& fitted, MixtureSurface surface) {
+  const bool interpolated = surface == MixtureSurface::kInterpolated && canInterpolate(fitted.map);
+  const NormalMap finer =
+      interpolated ? interpolatedNormals(fitted.map, kSurfaceSamples) : fitted.map;
   TextTable table({"level", "texels", "EM steps", "converged", "log-likelihood", "misalignment",
                    "error at texels", "between"});
   const auto level_count = static_cast<int>(fitted.mixtures.levels.size());
@@ -166,8 +175,10 @@ void printLevels(const Fitted& fitted) {
     const MixtureLevelReport& report = fitted.mixtures.levels[level];
     std::string at = "-", between = "-";
     if (level < kErrorLevels) {
-      const InterpolationError error = measureInterpolation(fitted.map, fitted.mixtures, level,
-                                                            kErrorPoints, kErrorDeviation, 1);
+      const bool between_texels = interpolated && level > 0;
+      const InterpolationError error = measureInterpolation(
+          between_texels ? finer : fitted.map, fitted.mixtures, level,
+          between_texels ? kInterpolatedErrorPoints : kErrorPoints, kErrorDeviation, 1);
       at = fmt::format("{:.4f}", error.fitted), between = fmt::format("{:.4f}", error.interpolated);
     }
     table.addRow({std::to_string(level), fmt::format("{}x{}", report.width_px, report.height_px),
@@ -189,7 +200,7 @@ void printReport(const FitGmmCommand& command, const Fitted& fitted) {
           ? fmt::format("{} in {:.2f} s", fitted.measured_fit ? "fitted" : "from the cache, fitted",
                         mixtures.fit_ms * 1e-3)
           : fmt::format("read from {}", command.check));
-  printLevels(fitted);
+  printLevels(fitted, command.options.surface);
   double limited = 0, texels = 0;
   for (const MixtureLevelReport& report : mixtures.levels) {
     const double count = static_cast<double>(report.width_px) * report.height_px;
@@ -245,6 +256,9 @@ void addFitGmmCommand(Command fit, CommandLine& line) {
       "--lobes", options->options.lobes, "Gaussians a texel, 1 to 8 (default: the scene's, or 4)");
   command.option("--order", options->order,
                  "colours, scanline (as published), independent (default: colours)");
+  command.option("--surface", options->surface,
+                 "interpolated: between texels too, as frames show it; texels: as published "
+                 "(default: interpolated)");
   command.option("--iterations", options->options.max_iterations,
                  "Most EM steps of a texel in a pass (default: 4)");
   command.option("--passes", options->options.passes,

@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace glintmark {
@@ -38,6 +39,10 @@ NormalMap interpolatedNormals(const NormalMap& map, int factor) {
     }
   });
   return fine;
+}
+
+bool canInterpolate(const NormalMap& map) {
+  return kSurfaceSamples * std::max(map.width_px, map.height_px) <= kMaxNormalMapSize_px;
 }
 
 }  // namespace glintmark

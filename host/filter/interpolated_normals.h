@@ -9,4 +9,11 @@ namespace glintmark {
 /// are replaced by (0, 0, 1).
 NormalMap interpolatedNormals(const NormalMap& map, int factor);
 
+/// Samples of the interpolated map per side of a texel that stand for the surface in filters.
+inline constexpr int kSurfaceSamples = 2;
+
+/// Whether so many samples of the map are no more than a map may have texels; a larger one is
+/// filtered as its texels.
+bool canInterpolate(const NormalMap& map);
+
 }  // namespace glintmark

@@ -1,4 +1,6 @@
-// Linear moments of normals, mip-mapped: what the single-lobe methods read.
+// Linear moments of normals, mip-mapped: what the single-lobe methods read. The finest level holds
+// the map's texels, between which lookups interpolate; coarser ones are means over the surface that
+// this makes, by samples between the texels too (interpolated_normals.h).
 #pragma once
 #include "host/filter/mip_texels.h"
 #include "host/filter/normal_map.h"
@@ -8,7 +10,9 @@ namespace glintmark {
 /// One float4 a texel: mean normal (x, y, z), not made unit, and 0. Its direction is the plain
 /// mip-mapped normal, its length r the evenness of the normals that Toksvig's roughness comes from:
 /// variance per axis (1 - r) / r. [Tok04]
-MipTexels meanNormals(const NormalMap& map);
+/// `between`: whether coarser levels see what lies between texels; without it they are means of the
+/// texels alone.
+MipTexels meanNormals(const NormalMap& map, bool between = true);
 
 /// Slopes steeper than this are laid here, so that one normal near the horizon does not take over
 /// the second moments of every texel above it.

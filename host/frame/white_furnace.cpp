@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <memory>
+#include <span>
 
 #include "host/core/angles.h"
 #include "host/frame/frame_renderer.h"
@@ -84,48 +86,72 @@ Scene squareScene(const Material& material, double view_cosine) {
   return scene;
 }
 
-// Radiance of the square under light of radiance 1 from `sky`.
-double radianceUnder(Device& device, Scene scene, const std::vector<PartOfSky>& sky, int lanes) {
-  double sum = 0;
-  for (std::size_t first = 0; first < sky.size(); first += kLightsPerFrame) {
-    scene.lights.clear();
-    for (std::size_t k = first; k < std::min(first + kLightsPerFrame, sky.size()); ++k) {
-      const glm::vec3 direction(sky[k].direction);
-      const auto power = static_cast<float>(sky[k].solid_angle);
-      scene.lights.push_back(
+// A square under light of radiance 1. One renderer serves every part of every sky: it takes lights
+// and material anew from its scene each time that it prepares, and keeps its programs. What it
+// keeps beside them are the taps that rough diffuse lobes take of lights; those have a new renderer
+// each.
+class Furnace {
+ public:
+  Furnace(Device& device, const Material& material, double view_cosine, int lanes)
+      : device_(device), scene_(squareScene(material, view_cosine)), lanes_(lanes) {}
+  Furnace(const Furnace&) = delete;
+  Furnace& operator=(const Furnace&) = delete;
+
+  const View& view() const { return scene_.views[0]; }
+  void setAlbedo(const float4& albedo) { scene_.materials[0].params.surface.albedo = albedo; }
+
+  // Radiance of the square under `sky`.
+  double radianceUnder(const std::vector<PartOfSky>& sky) {
+    double sum = 0;
+    for (std::size_t first = 0; first < sky.size(); first += kLightsPerFrame)
+      sum += radianceUnder(
+          std::span(sky).subspan(first, std::min(kLightsPerFrame, sky.size() - first)));
+    return sum;
+  }
+
+ private:
+  double radianceUnder(std::span<const PartOfSky> parts) {
+    scene_.lights.clear();
+    for (const PartOfSky& part : parts) {
+      const glm::vec3 direction(part.direction);
+      const auto power = static_cast<float>(part.solid_angle);
+      scene_.lights.push_back(
           {{direction.y, direction.z, direction.x, 0}, {power, power, power, 0}});
     }
-    FrameRenderer renderer(device, scene, scene.views[0],
-                           {.width_px = kSide_px, .height_px = kSide_px, .lanes = lanes});
-    renderer.prepare();
-    renderer.shade();
-    const Image radiance = renderer.readRadiance();
+    if (!renderer_ || scene_.materials[0].diffuse_model != DiffuseModel::kLambert)
+      renderer_ = std::make_unique<FrameRenderer>(
+          device_, scene_, scene_.views[0],
+          ShadingOptions{.width_px = kSide_px, .height_px = kSide_px, .lanes = lanes_});
+    renderer_->prepare();
+    renderer_->shade();
+    const Image radiance = renderer_->readRadiance();
+    double sum = 0;
     for (int y = 0; y < kSide_px; ++y)
       for (int x = 0; x < kSide_px; ++x) sum += radiance.at(x, y)[0] / (kSide_px * kSide_px);
+    return sum;
   }
-  return sum;
-}
+
+  Device& device_;
+  Scene scene_;
+  const int lanes_;
+  std::unique_ptr<FrameRenderer> renderer_;
+};
 
 }  // namespace
 
 double whiteFurnace(Device& device, const Material& material, double view_cosine, int lanes) {
-  const Scene scene = squareScene(material, view_cosine);
+  Furnace furnace(device, material, view_cosine, lanes);
   const SurfaceMaterial& surface = material.params.surface;
-  if (surface.intensity == 0 || material.normal_map)
-    return radianceUnder(device, scene, evenSky(), lanes);
-  const glm::dvec3 towards = glm::normalize(scene.views[0].eye - scene.views[0].target);
+  if (surface.intensity == 0 || material.normal_map) return furnace.radianceUnder(evenSky());
+  const glm::dvec3 towards = glm::normalize(furnace.view().eye - furnace.view().target);
   const glm::dvec3 local(towards.z, towards.x, towards.y);  // x' = z, y' = x, z' = y
-  Scene mirror = scene;
-  mirror.materials[0].params.surface.albedo = {};
-  const double specular =
-      radianceUnder(device, mirror,
-                    mirroredSky(local, surface.alpha_g.x,
-                                material.ggx ? reference::Ndf::kGgx : reference::Ndf::kBeckmann),
-                    lanes);
-  if (surface.albedo.x == 0) return specular;
   // What the diffuse layer adds, whatever the even directions make of the lobe.
-  return specular + radianceUnder(device, scene, evenSky(), lanes) -
-         radianceUnder(device, mirror, evenSky(), lanes);
+  const double with_diffuse = surface.albedo.x == 0 ? 0 : furnace.radianceUnder(evenSky());
+  furnace.setAlbedo({});
+  const double specular = furnace.radianceUnder(mirroredSky(
+      local, surface.alpha_g.x, material.ggx ? reference::Ndf::kGgx : reference::Ndf::kBeckmann));
+  if (surface.albedo.x == 0) return specular;
+  return specular + with_diffuse - furnace.radianceUnder(evenSky());
 }
 
 }  // namespace glintmark

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <numeric>
 
 #include "host/core/error.h"
@@ -28,12 +29,18 @@ int divideUp(std::size_t a, std::size_t b) {
 // Sizes of a level, and how its normals are shared out.
 struct Level {
   int number = 0;
-  int most_columns = 0, most_rows = 0;  // of normals under one texel
-  bool long_rows = false;               // a lane is a normal, not a texel
+  const ProjectedNormals* normals = nullptr;  // that its texels cover
+  int most_columns = 0, most_rows = 0;        // of them under one texel
+  bool long_rows = false;                     // a lane is a normal, not a texel
   std::vector<TexelBatch> batches;
   std::vector<MixtureFitRun> runs;  // one per batch
 
   std::size_t mostTexels() const { return static_cast<std::size_t>(batches.front().count); }
+};
+
+// Projected normals on the device.
+struct NormalBuffers {
+  Buffer x, y;
 };
 
 class DeviceMixtureFit {
@@ -44,9 +51,9 @@ class DeviceMixtureFit {
         lanes_(lanes),
         options_(options),
         progress_(progress),
-        map_(map),
+        normals_(map, options.surface),
         local_size_(device.info().is_cpu ? kCpuLocalSize : kGpuLocalSize) {
-    result_.moments = makeMipTexels(map_.width_px, map_.height_px, options_.lobes);
+    result_.moments = makeMipTexels(map.width_px, map.height_px, options_.lobes);
     result_.lobes = options_.lobes;
     for (uint level = 0; level < result_.moments.layout.level_count; ++level) {
       levels_.push_back(makeLevel(static_cast<int>(level)));
@@ -57,7 +64,7 @@ class DeviceMixtureFit {
       throw Error(
           fmt::format("mixtures of {} lobes of a {}x{} map are too large for the fit on the"
                       " device; fit them on the host",
-                      options_.lobes, map_.width_px, map_.height_px));
+                      options_.lobes, map.width_px, map.height_px));
     }
     makeKernels(cache);
     makeBuffers();
@@ -82,13 +89,15 @@ class DeviceMixtureFit {
     const int width = moments.levelWidth(number), height = moments.levelHeight(number);
     Level level;
     level.number = number;
+    level.normals = &normals_.normals(number);
+    const int columns = level.normals->width_px, rows = level.normals->height_px;
     for (int x = 0; x < width; ++x) {
-      level.most_columns = std::max(
-          level.most_columns, static_cast<int>(mipCover(x, width, map_.width_px).weights.size()));
+      level.most_columns = std::max(level.most_columns,
+                                    static_cast<int>(mipCover(x, width, columns).weights.size()));
     }
     for (int y = 0; y < height; ++y) {
-      level.most_rows = std::max(
-          level.most_rows, static_cast<int>(mipCover(y, height, map_.height_px).weights.size()));
+      level.most_rows =
+          std::max(level.most_rows, static_cast<int>(mipCover(y, height, rows).weights.size()));
     }
     level.long_rows = level.most_columns >= MF_SLOTS;
     level.batches = texelBatches(options_.order, width, height);
@@ -106,7 +115,7 @@ class DeviceMixtureFit {
     };
     place(level.number, run.first, run.width, run.height);
     place(level.number + 1, run.parent_first, run.parent_width, run.parent_height);
-    run.map_width = map_.width_px, run.map_height = map_.height_px;
+    run.map_width = level.normals->width_px, run.map_height = level.normals->height_px;
     run.most_columns = level.most_columns;
     run.origin_x = batch.origin.x, run.origin_y = batch.origin.y;
     run.columns = batch.per_row, run.rows = batch.count / batch.per_row;
@@ -116,9 +125,10 @@ class DeviceMixtureFit {
                  divideUp(static_cast<std::size_t>(level.most_rows), kMostChunks));
     run.chunks = divideUp(static_cast<std::size_t>(level.most_rows), rows_per_chunk);
     run.rows_per_chunk = rows_per_chunk;
-    run.prior_weight = options_.prior_weight, run.tolerance = options_.tolerance;
-    run.normals = static_cast<float>(static_cast<double>(map_.width_px) / run.width *
-                                     map_.height_px / run.height);
+    run.prior_weight = options_.prior_weight * normals_.samplesPerTexel(level.number);
+    run.tolerance = options_.tolerance;
+    run.normals = static_cast<float>(static_cast<double>(run.map_width) / run.width *
+                                     run.map_height / run.height);
     return run;
   }
 
@@ -138,14 +148,19 @@ class DeviceMixtureFit {
     const auto words = [&](std::size_t count, const char* what) {
       return Buffer(device_, count * 4, BufferPurpose::kMixtureFit, what);
     };
-    const std::size_t normals = map_.normals.size() + MF_SLOTS;
-    normal_x_ = words(normals, "the map's normals");
-    normal_y_ = words(normals, "the map's normals");
+    for (const Level& level : levels_) {
+      if (normal_buffers_.contains(level.normals)) continue;
+      const std::size_t normals = level.normals->x.size();
+      normal_buffers_[level.normals] = {words(normals, "the map's normals"),
+                                        words(normals, "the map's normals")};
+    }
     state_ = words(result_.moments.texels.size() * 4, "the mixtures");
     run_ =
         Buffer(device_, sizeof(MixtureFitRun), BufferPurpose::kMixtureFit, "the fit's parameters");
     tally_ = words(2 * kTallyPairs, "the fit's tally");
-    likelihood_ = words(map_.normals.size(), "the mixtures' likelihood");
+    const MipTexture& layout = result_.moments.layout;
+    likelihood_ =
+        words(static_cast<std::size_t>(layout.width) * layout.height, "the mixtures' likelihood");
     const std::size_t sums = MF_SUMS(options_.lobes);
     std::size_t texels = 1, parts = 1;
     for (const Level& level : levels_) {
@@ -161,11 +176,12 @@ class DeviceMixtureFit {
 
   // The map, and the coarsest texel's clusters.
   void upload() {
-    const ProjectedNormals normals(map_);
-    normal_x_.write(normals.x.data(), normal_x_.bytes());
-    normal_y_.write(normals.y.data(), normal_y_.bytes());
+    for (auto& [normals, buffers] : normal_buffers_) {
+      buffers.x.write(normals->x.data(), buffers.x.bytes());
+      buffers.y.write(normals->y.data(), buffers.y.bytes());
+    }
     const int root = static_cast<int>(levels_.size()) - 1;
-    const MixtureLevel geometry(normals, root);
+    const MixtureLevel geometry = normals_.level(root);
     std::vector<float4> lobes;
     for (const NormalLobe& c :
          clusterNormals(geometry.sample({0, 0}, MF_START_NORMALS), options_.lobes)) {
@@ -209,7 +225,7 @@ class DeviceMixtureFit {
           run.finer_width = finer.width, run.finer_height = finer.height;
         }
         run_.write(&run, sizeof run);
-        const Tally of_batch = level.long_rows ? fitRows(run) : fitTexels(run);
+        const Tally of_batch = level.long_rows ? fitRows(level, run) : fitTexels(level, run);
         tally.steps += of_batch.steps, tally.resting += of_batch.resting;
       }
       report.mean_iterations += tally.steps / texels;
@@ -218,9 +234,14 @@ class DeviceMixtureFit {
     advance();
   }
 
-  Tally fitTexels(const MixtureFitRun& run) {
+  const NormalBuffers& normalsOf(const Level& level) const {
+    return normal_buffers_.at(level.normals);
+  }
+
+  Tally fitTexels(const Level& level, const MixtureFitRun& run) {
     tally_.fillZero();
-    launch(fit_texels_, {normal_x_, normal_y_, run_, state_, tally_}, items(run));
+    const NormalBuffers& normals = normalsOf(level);
+    launch(fit_texels_, {normals.x, normals.y, run_, state_, tally_}, items(run));
     std::vector<std::uint32_t> counts(2 * kTallyPairs);
     tally_.read(counts.data(), counts.size() * 4);
     Tally tally;
@@ -230,12 +251,12 @@ class DeviceMixtureFit {
     return tally;
   }
 
-  Tally fitRows(const MixtureFitRun& run) {
+  Tally fitRows(const Level& level, const MixtureFitRun& run) {
     launch(start_texels_, {run_, state_, prior_, status_}, items(run));
     std::vector<std::uint32_t> status(static_cast<std::size_t>(run.rows) * run.columns);
     std::size_t moving = status.size();
     for (int step = 0; step < run.max_iterations && moving > 0; ++step) {
-      expectRows(run, false);
+      expectRows(level, run, false);
       launch(maximize_texels_, {run_, sums_, prior_, state_, status_}, items(run));
       status_.read(status.data(), status.size() * 4);
       moving = std::ranges::count_if(status, [](std::uint32_t s) { return (s & 1) != 0; });
@@ -245,10 +266,11 @@ class DeviceMixtureFit {
     return tally;
   }
 
-  void expectRows(const MixtureFitRun& run, bool finishing) {
+  void expectRows(const Level& level, const MixtureFitRun& run, bool finishing) {
+    const NormalBuffers& normals = normalsOf(level);
     const std::size_t texels = static_cast<std::size_t>(run.rows) * run.columns;
     launch(expect_rows_,
-           {normal_x_, normal_y_, run_, state_, status_, std::uint32_t{finishing}, partials_},
+           {normals.x, normals.y, run_, state_, status_, std::uint32_t{finishing}, partials_},
            texels * run.chunks * (MF_SLOTS / lanes_));
     launch(add_partials_, {run_, partials_, sums_}, texels * MF_SUMS(options_.lobes));
   }
@@ -258,17 +280,18 @@ class DeviceMixtureFit {
     for (const MixtureFitRun& run : level.runs) {
       run_.write(&run, sizeof run);
       if (level.long_rows) {
-        expectRows(run, true);
+        expectRows(level, run, true);
         launch(finish_rows_, {run_, sums_, state_, likelihood_}, items(run));
       } else {
-        launch(finish_texels_, {normal_x_, normal_y_, run_, state_, likelihood_}, items(run));
+        const NormalBuffers& normals = normalsOf(level);
+        launch(finish_texels_, {normals.x, normals.y, run_, state_, likelihood_}, items(run));
       }
     }
     std::vector<float> likelihood(static_cast<std::size_t>(any.width) * any.height);
     likelihood_.read(likelihood.data(), likelihood.size() * 4);
     result_.levels[level.number].log_likelihood =
         std::accumulate(likelihood.begin(), likelihood.end(), 0.0) /
-        static_cast<double>(map_.normals.size());
+        (static_cast<double>(any.map_width) * any.map_height);
     advance();
   }
 
@@ -283,13 +306,14 @@ class DeviceMixtureFit {
   const int lanes_;
   const MixtureOptions options_;
   const std::function<void(double)>& progress_;
-  const NormalMap& map_;
+  const FittedNormals normals_;
   const std::size_t local_size_;
   std::vector<Level> levels_;
   NormalMixtures result_;
   Kernel fit_texels_, finish_texels_, start_texels_, expect_rows_, add_partials_, maximize_texels_,
       finish_rows_;
-  Buffer normal_x_, normal_y_, state_, run_, tally_, likelihood_;
+  std::map<const ProjectedNormals*, NormalBuffers> normal_buffers_;
+  Buffer state_, run_, tally_, likelihood_;
   Buffer partials_, sums_, prior_, status_;  // of a batch with long rows
   int steps_done_ = 0;
 };

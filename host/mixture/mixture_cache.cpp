@@ -49,7 +49,8 @@ std::string mixtureKey(const NormalMap& map, const MixtureOptions& options) {
       " tolerance {}, prior {}",
       kMixtureVersion, map.width_px, map.height_px, fnv1a(normals), options.lobes,
       mixtureOrderName(options.order), options.passes, options.sweeps, options.max_iterations,
-      options.tolerance, options.prior_weight);
+      options.tolerance, options.prior_weight,
+      options.surface == MixtureSurface::kTexels ? "texels" : "interpolated");
 }
 
 std::string mixtureBytes(const NormalMixtures& mixtures) {

@@ -58,7 +58,7 @@ class MixtureFit {
  public:
   MixtureFit(const NormalMap& map, const MixtureOptions& options,
              const std::function<void(double)>& progress)
-      : options_(options), progress_(progress), finest_(map) {
+      : options_(options), progress_(progress), normals_(map, options.surface) {
     result_.moments = makeMipTexels(map.width_px, map.height_px, options.lobes);
     result_.lobes = options.lobes;
     level_count_ = static_cast<int>(result_.moments.layout.level_count);
@@ -87,7 +87,7 @@ class MixtureFit {
   };
 
   void fitLevel(int level, int pass) {
-    const MixtureLevel geometry(finest_, level);
+    const MixtureLevel geometry = normals_.level(level);
     Tally tally;
     const std::vector<TexelBatch> batches =
         texelBatches(options_.order, geometry.width(), geometry.height());
@@ -109,14 +109,15 @@ class MixtureFit {
   }
 
   void finishLevel(int level) {
-    const MixtureLevel geometry(finest_, level);
+    const MixtureLevel geometry = normals_.level(level);
     const TexelBatch all =
         texelBatches(MixtureOrder::kIndependent, geometry.width(), geometry.height()).front();
     const Tally tally = overBlocks(geometry, all, [&](const BlockTexels& texels) {
       return finishBlock(geometry, level, texels);
     });
     result_.levels[level].log_likelihood =
-        tally.log_likelihood / (static_cast<double>(finest_.width_px) * finest_.height_px);
+        tally.log_likelihood /
+        (geometry.normalsPerTexel() * static_cast<double>(geometry.texelCount()));
     advance();
   }
 
@@ -263,9 +264,10 @@ class MixtureFit {
   void addNeighbours(const MixtureLevel& geometry, const Round& round, glm::ivec2 texel, int lane,
                      MixtureBlock& block) {
     if (options_.order == MixtureOrder::kIndependent) return;
+    const float prior_weight = options_.prior_weight * normals_.samplesPerTexel(round.level);
     const auto add = [&](const float4* lobes) {
       for (int i = 0; i < options_.lobes; ++i) {
-        const float weight = options_.prior_weight * lobes[i].x;
+        const float weight = prior_weight * lobes[i].x;
         block.prior_weight[i][lane] += weight;
         block.prior_x[i][lane] += weight * lobes[i].y;
         block.prior_y[i][lane] += weight * lobes[i].z;
@@ -324,7 +326,7 @@ class MixtureFit {
 
   const MixtureOptions options_;
   const std::function<void(double)>& progress_;
-  const ProjectedNormals finest_;
+  const FittedNormals normals_;
   NormalMixtures result_;
   int level_count_ = 0;
   int steps_done_ = 0;

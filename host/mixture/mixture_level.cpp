@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/filter/interpolated_normals.h"
+
 namespace glintmark {
 
 ProjectedNormals::ProjectedNormals(const NormalMap& map)
@@ -90,6 +92,24 @@ std::vector<WeightedNormal> MixtureLevel::sample(glm::ivec2 texel, std::size_t m
         static_cast<std::size_t>((v - std::floor(v)) * static_cast<double>(rows)));
   }
   return result;
+}
+
+FittedNormals::FittedNormals(const NormalMap& map, MixtureSurface surface) : texels_(map) {
+  if (surface == MixtureSurface::kInterpolated && canInterpolate(map))
+    between_.emplace(interpolatedNormals(map, kSurfaceSamples));
+}
+
+const ProjectedNormals& FittedNormals::normals(int level) const {
+  return seesBetween(level) ? *between_ : texels_;
+}
+
+MixtureLevel FittedNormals::level(int level) const {
+  // A map of twice the size has one level more.
+  return {normals(level), seesBetween(level) ? level + 1 : level};
+}
+
+float FittedNormals::samplesPerTexel(int level) const {
+  return seesBetween(level) ? static_cast<float>(kSurfaceSamples * kSurfaceSamples) : 1.0f;
 }
 
 }  // namespace glintmark

@@ -1,10 +1,12 @@
 // The finest normals as the fit reads them, and what a level's texels cover of them.
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "host/filter/mip_chain.h"
 #include "host/mixture/mixture_em.h"
 #include "host/mixture/mixture_start.h"
+#include "host/mixture/normal_mixture.h"
 
 namespace glintmark {
 
@@ -46,6 +48,25 @@ class MixtureLevel {
   std::vector<MipCover> columns_, rows_;  // weights padded by kBlockTexels zeros in columns_
   std::vector<std::size_t> column_counts_;
   std::size_t most_columns_ = 0, most_rows_ = 0;
+};
+
+/// The normals that a chain of mixtures stands for, level by level.
+class FittedNormals {
+ public:
+  FittedNormals(const NormalMap& map, MixtureSurface surface);
+
+  /// What the texels of `level` of the map's chain cover. Refers to this object.
+  MixtureLevel level(int level) const;
+  /// The normals that the level covers.
+  const ProjectedNormals& normals(int level) const;
+  /// Of them, how many lie under a texel of the map, 1 or more.
+  float samplesPerTexel(int level) const;
+
+ private:
+  bool seesBetween(int level) const { return between_ && level > 0; }
+
+  ProjectedNormals texels_;
+  std::optional<ProjectedNormals> between_;  // the map interpolated, if the surface is
 };
 
 }  // namespace glintmark

@@ -35,8 +35,15 @@ enum class MixtureOrder {
   kIndependent  // no neighbours at all: unaligned mixtures, to compare with
 };
 
+/// Which normals are under a texel.
+enum class MixtureSurface {
+  kInterpolated,  // from the second level on what lies between the map's texels as well
+  kTexels         // those of the map's texels: as if each were flat
+};
+
 struct MixtureOptions {
   int lobes = 4;  // 1..kMaxLobes
+  MixtureSurface surface = MixtureSurface::kTexels;
   MixtureOrder order = MixtureOrder::kColours;
   int passes = 2;           // over the chain, coarse to fine, >= 1; later ones see finer texels too
   int sweeps = 1;           // over each level within a pass, >= 1

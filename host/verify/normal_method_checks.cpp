@@ -22,13 +22,21 @@ namespace {
 constexpr int kSize_px = 24;
 constexpr double kUvPerUnit = 2000;  // hundreds of maps under every pixel
 
-// A square of texels of the given slopes: one, four or sixteen.
+// Of a strip that is shared out among one, four or sixteen slopes. What is interpolated lies
+// between two of them, a texel in 256 or fewer.
+constexpr int kStrip_px = 4096;
+
+glm::vec3 normalOf(const glm::vec2& slope) {
+  return glm::normalize(glm::vec3(slope, 1));
+}
+
 NormalMap mapOfSlopes(const std::vector<glm::vec2>& slopes) {
   NormalMap map;
   map.name = "slopes";
-  map.width_px = map.height_px = slopes.size() > 4 ? 4 : 2;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(map.width_px * map.height_px); ++i)
-    map.normals.push_back(glm::normalize(glm::vec3(slopes[i % slopes.size()], 1)));
+  map.width_px = kStrip_px;
+  map.height_px = 1;
+  for (std::size_t i = 0; i < kStrip_px; ++i)
+    map.normals.push_back(normalOf(slopes[i * slopes.size() / kStrip_px]));
   return map;
 }
 
@@ -124,7 +132,7 @@ Finding methodIsTheMean(const CheckContext& context, const MethodCase& c) {
   const NormalMap map = mapOfSlopes(c.slopes);
   const Scene scene = floorOf(map);
   glm::dvec3 mean(0);
-  for (const glm::vec3& n : map.normals) mean += glm::dvec3(n);
+  for (const glm::vec2& slope : c.slopes) mean += glm::dvec3(normalOf(slope));
   ShadingOptions options{.width_px = kSize_px, .height_px = kSize_px, .lanes = context.lanes};
   options.normal_method = c.method;
   options.half_texels = c.half;
@@ -143,9 +151,9 @@ Finding methodIsTheMean(const CheckContext& context, const MethodCase& c) {
       for (int x = 0; x < kSize_px; ++x) {
         const glm::dvec3 view = inFloor(-glm::normalize(renderer.camera().ray(x, y)));
         glm::dvec3 want(0);
-        for (const glm::vec3& n : map.normals)
-          want += shadeNormal(scene, coat, glm::dvec3(n), view) /
-                  static_cast<double>(map.normals.size());
+        for (const glm::vec2& slope : c.slopes)
+          want += shadeNormal(scene, coat, glm::dvec3(normalOf(slope)), view) /
+                  static_cast<double>(c.slopes.size());
         if (c.of_mean) want = shadeNormal(scene, coat, glm::normalize(mean), view);
         for (std::size_t k = 0; k < 3; ++k)
           finding.add(std::abs(image.at(x, y)[k] / want[static_cast<int>(k)] - 1));

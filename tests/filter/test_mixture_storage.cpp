@@ -110,10 +110,13 @@ TEST(NormalMoments, ToksvigAndLeanOfTwoSlopes) {
   NormalMap map{"ridge", 2, 1, {{0.6f, 0, 0.8f}, {-0.6f, 0, 0.8f}}};
   const MipTexels means = meanNormals(map);
   EXPECT_NEAR(means.at(1, 0, 0)->x, 0, 1e-7);
-  EXPECT_NEAR(means.at(1, 0, 0)->z, 0.8, 1e-6);
+  // A quarter of a texel from either centre the map's slope is half as steep, (0.3, 0, 0.8).
+  EXPECT_NEAR(means.at(0, 0, 0)->z, 0.8, 1e-6);
+  EXPECT_NEAR(means.at(1, 0, 0)->z, 0.8 / std::sqrt(0.73), 1e-6);
   const MipTexels lean = leanMoments(map);
   EXPECT_NEAR(lean.at(0, 1, 0)[0].x, -0.75, 1e-6);
-  EXPECT_NEAR(lean.at(1, 0, 0)[0].z, 0.5625, 1e-6);
+  EXPECT_NEAR(lean.at(0, 0, 0)[0].z, 0.5625, 1e-6);
+  EXPECT_NEAR(lean.at(1, 0, 0)[0].z, 0.375 * 0.375, 1e-6);
   EXPECT_NEAR(lean.at(1, 0, 0)[1].x, 0, 1e-7);
 }
 

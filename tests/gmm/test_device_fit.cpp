@@ -62,6 +62,18 @@ TEST(DeviceMixtureFit, OneStepOfEachTexelIsTheHosts) {
   }
 }
 
+// Four times as many normals, of which some lie between two lobes.
+TEST(DeviceMixtureFit, OneStepOverTheInterpolatedSurfaceIsTheHosts) {
+  for (const NormalMap& map : {generateNormalMap({.kind = "disk", .size_px = 64}),
+                               randomMap(37, 23), randomMap(1, 50), randomMap(70, 1)}) {
+    const MixtureOptions options{
+        .surface = MixtureSurface::kInterpolated, .max_iterations = 1, .tolerance = kNeverResting};
+    EXPECT_LT(difference(fitAt(16, map, options), fitNormalMixtures(map, options)).mean,
+              kMeanTolerance)
+        << map.name << " " << map.width_px << "x" << map.height_px;
+  }
+}
+
 TEST(DeviceMixtureFit, SameMixturesAsTheHost) {
   for (const char* kind : {"disk", "dunes"}) {
     const NormalMap map = generateNormalMap({.kind = kind, .size_px = 64});

@@ -2,11 +2,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "host/core/error.h"
 #include "host/experiment/accuracy/accuracy_table.h"
 #include "host/experiment/accuracy/accuracy_truth.h"
 #include "host/experiment/accuracy/knob_settings.h"
+#include "host/experiment/shifted_view.h"
 #include "host/frame/effect/normal_maps.h"
 #include "host/mixture/normal_mixture.h"
 #include "host/ocl/switches.h"
@@ -17,7 +19,9 @@ namespace {
 constexpr int kIterations[] = {1, 2, 4, 8, 16};
 constexpr int kFitReps = 3;
 constexpr int kSupersamples[] = {1, 4, 16, 64};
-constexpr SampledTruthSettings kGmmTruth = {PrincipalMetric::kColourError, 480, 1024};
+// Texels and pixels must not be in step: four shifts, of half the samples that one view had.
+constexpr SampledTruthSettings kGmmTruth = {PrincipalMetric::kColourError, 480, 512,
+                                            static_cast<int>(std::size(kShifts_px))};
 
 std::vector<AccuracySetting> gmmSettings() {
   KnobSettings knobs("gmm");

@@ -58,9 +58,10 @@ ShadingOptions AccuracyStage::options() const {
   return run_.shading();
 }
 
-std::unique_ptr<TruthRenderer> AccuracyStage::sampler(const ShadingOptions& options) const {
-  return std::make_unique<TruthRenderer>(run_.device(), scene_, view_, options, run_.threads(),
-                                         textures_);
+std::unique_ptr<TruthRenderer> AccuracyStage::sampler(const ShadingOptions& options,
+                                                      const View* view) const {
+  return std::make_unique<TruthRenderer>(run_.device(), scene_, view == nullptr ? view_ : *view,
+                                         options, run_.threads(), textures_);
 }
 
 std::unique_ptr<FrameRenderer> AccuracyStage::renderer(const ShadingOptions& options,

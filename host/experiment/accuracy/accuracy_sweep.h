@@ -43,8 +43,9 @@ class AccuracyStage {
   /// must live as long as the renderer.
   std::unique_ptr<FrameRenderer> renderer(const ShadingOptions& options, const View* view = nullptr,
                                           const Scene* scene = nullptr) const;
-  /// Of the ground truth at the size of `options`, before prepare().
-  std::unique_ptr<TruthRenderer> sampler(const ShadingOptions& options) const;
+  /// Of the ground truth at the size of `options`, before prepare(); `view` as above.
+  std::unique_ptr<TruthRenderer> sampler(const ShadingOptions& options,
+                                         const View* view = nullptr) const;
   const std::shared_ptr<NormalTextures>& textures() const { return textures_; }
 
  private:

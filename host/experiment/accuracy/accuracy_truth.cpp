@@ -7,6 +7,7 @@
 
 #include "host/experiment/accuracy/scene_table.h"
 #include "host/experiment/frame_truth.h"
+#include "host/experiment/shifted_view.h"
 #include "host/report/metrics.h"
 #include "host/report/picture/tonemap.h"
 
@@ -25,9 +26,12 @@ double principal(PrincipalMetric metric, const Image& row, const Image& truth, d
 
 std::string sampledTruthNote(const BenchRun& run, const SampledTruthSettings& settings) {
   const ImageSize size = truthSize(run, settings.width_px);
-  return fmt::format("error: {} at {}x{} against {} samples a pixel",
+  return fmt::format("error: {} at {}x{} against {} samples a pixel{}",
                      settings.metric == PrincipalMetric::kRelMse ? "relMSE" : "colour error",
-                     size.width_px, size.height_px, settings.spp);
+                     size.width_px, size.height_px, settings.spp,
+                     settings.shifts == 1 ? ""
+                                          : fmt::format(", mean over {} shifts by parts of a pixel",
+                                                        settings.shifts));
 }
 
 SampledSweep::SampledSweep(BenchRun& run, const std::string& effect,
@@ -72,10 +76,16 @@ ShadingOptions SampledSweep::truthOptions(const AccuracyStage& stage) const {
   return options;
 }
 
-const SampledSweep::Truth& SampledSweep::truth(std::size_t index, const AccuracyStage& stage) {
-  const auto found = truths_.find(index);
+View SampledSweep::viewOf(const AccuracyStage& stage, int shift) const {
+  const auto& [right_px, up_px] = kShifts_px[shift];
+  return shiftedView(stage.view(), right_px, up_px, truthOptions(stage).height_px);
+}
+
+const SampledSweep::Truth& SampledSweep::truth(std::size_t index, const AccuracyStage& stage,
+                                               int shift) {
+  const auto found = truths_.find({index, shift});
   if (found != truths_.end()) return found->second;
-  const ReplicatedTruth truth = truthOf(stage.run(), stage.scene(), stage.view(),
+  const ReplicatedTruth truth = truthOf(stage.run(), stage.scene(), viewOf(stage, shift),
                                         truthOptions(stage), settings_.spp, stage.textures());
   Truth made;
   made.row = coveredPixels(truth.images.mean);
@@ -86,22 +96,22 @@ const SampledSweep::Truth& SampledSweep::truth(std::size_t index, const Accuracy
           return principal(settings_.metric, coveredPixels(off), coveredPixels(mean),
                            stage.scene().post.exposure);
         });
-  return truths_.emplace(index, std::move(made)).first->second;
+  return truths_.emplace(std::pair{index, shift}, std::move(made)).first->second;
 }
 
-Image SampledSweep::image(const AccuracyStage& stage, const AccuracySetting& setting) const {
+Image SampledSweep::image(const AccuracyStage& stage, const View& view,
+                          const AccuracySetting& setting) const {
   ShadingOptions options = truthOptions(stage);
   if (setting.samples == 0) {
     if (setting.apply) setting.apply(options);
-    return stage.renderer(options)->readRadiance();
+    return stage.renderer(options, &view)->readRadiance();
   }
-  return sampleFrame(*stage.sampler(options), setting.samples).mean;
+  return sampleFrame(*stage.sampler(options, &view), setting.samples).mean;
 }
 
-AccuracyFigures SampledSweep::figures(std::size_t index, const AccuracyStage& stage,
-                                      const AccuracySetting& setting) {
-  const Truth& right = truth(index, stage);
-  const Image frame = image(stage, setting);
+AccuracyFigures SampledSweep::figuresOf(const Truth& right, const AccuracyStage& stage,
+                                        const View& view, const AccuracySetting& setting) const {
+  const Image frame = image(stage, view, setting);
   AccuracyFigures figures;
   figures.truth_stderr = right.standard_error;
   if (!right.sane || !isSane(frame)) {
@@ -115,6 +125,23 @@ AccuracyFigures SampledSweep::figures(std::size_t index, const AccuracyStage& st
   figures.rel_mse = relMse(row, right.row);
   figures.colour_error = principal(PrincipalMetric::kColourError, row, right.row, exposure);
   return figures;
+}
+
+AccuracyFigures SampledSweep::figures(std::size_t index, const AccuracyStage& stage,
+                                      const AccuracySetting& setting) {
+  AccuracyFigures mean;
+  mean.rel_mse = mean.colour_error = 0;
+  for (int shift = 0; shift < settings_.shifts; ++shift) {
+    const AccuracyFigures one =
+        figuresOf(truth(index, stage, shift), stage, viewOf(stage, shift), setting);
+    if (!one.failure.empty()) return one;
+    mean.error += one.error / settings_.shifts;
+    mean.bias += one.bias / settings_.shifts;
+    mean.truth_stderr += one.truth_stderr / settings_.shifts;
+    *mean.rel_mse += *one.rel_mse / settings_.shifts;
+    *mean.colour_error += *one.colour_error / settings_.shifts;
+  }
+  return mean;
 }
 
 }  // namespace glintmark

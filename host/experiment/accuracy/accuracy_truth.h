@@ -11,9 +11,11 @@ struct SampledTruthSettings {
   PrincipalMetric metric = PrincipalMetric::kRelMse;
   int width_px = 320;  // of the truth and of errors, at most; the height follows
   int spp = 1024;
+  int shifts = 1;  // 1..std::size(kShifts_px): how many views, moved by parts of a pixel, errors
+                   // are means over
 };
 
-/// "error: relMSE at 320x180 against 1024 samples a pixel"
+/// "error: relMSE at 320x180 against 1024 samples a pixel", and over how many shifted views
 std::string sampledTruthNote(const BenchRun& run, const SampledTruthSettings& settings);
 
 class SampledSweep : public AccuracySweep {
@@ -31,19 +33,23 @@ class SampledSweep : public AccuracySweep {
                           const AccuracySetting& setting) override;
 
  private:
+  // Of one view.
   struct Truth {
     Image row;                  // linear, covered pixels
     double standard_error = 0;  // in the principal metric
     bool sane = false;
   };
-  const Truth& truth(std::size_t index, const AccuracyStage& stage);
+  const Truth& truth(std::size_t index, const AccuracyStage& stage, int shift);
+  AccuracyFigures figuresOf(const Truth& right, const AccuracyStage& stage, const View& view,
+                            const AccuracySetting& setting) const;
+  View viewOf(const AccuracyStage& stage, int shift) const;
   // The defaults at the truth's size.
   ShadingOptions truthOptions(const AccuracyStage& stage) const;
   // The frame by a setting: shaded, or sampled by a replicate that the truth has not used.
-  Image image(const AccuracyStage& stage, const AccuracySetting& setting) const;
+  Image image(const AccuracyStage& stage, const View& view, const AccuracySetting& setting) const;
 
   SampledTruthSettings settings_;
-  std::map<std::size_t, Truth> truths_;
+  std::map<std::pair<std::size_t, int>, Truth> truths_;  // by stage and shift
 };
 
 }  // namespace glintmark

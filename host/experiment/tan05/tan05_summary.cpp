@@ -10,6 +10,7 @@
 #include "host/experiment/summary_table.h"
 #include "host/experiment/tan05/tan05_table.h"
 #include "host/filter/normal_map_generators.h"
+#include "host/frame/effect/normal_maps.h"
 #include "host/mixture/normal_mixture.h"
 #include "host/reference/texture.h"
 #include "host/report/metrics.h"
@@ -158,9 +159,12 @@ std::vector<Record> measureTan05Summary(BenchRun& run, const Tan05Scene& scene) 
                                ? shadeInTurn(*narrow, *gmm, reps.atMost(kOneLaneReps)).ratios()
                                : Samples{1};
   const bool same = relMse(gmm->readRadiance(), narrow->readRadiance()) == 0;
+  MixtureOptions fit =
+      mixtureOptions(NormalMapSource{}.lobes, options.mixture_order, options.mixture_iterations);
+  fit.threads = run.threads();
   const NormalMixtures fitted =
-      fitNormalMixtures(generateNormalMap({.kind = "disk", .size_px = kFitSize_px}),
-                        {.threads = run.threads()}, [](double) { stopIfInterrupted(); });
+      fitNormalMixtures(generateNormalMap({.kind = "disk", .size_px = kFitSize_px}), fit,
+                        [](double) { stopIfInterrupted(); });
 
   const auto record = [&](const char* metric, const Samples& samples, const std::string& note) {
     return run.record(tan05Spec(), kAllCase, metric, samples, note);

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/core/angles.h"
 #include "host/experiment/frame_timing.h"
 #include "host/experiment/frame_truth.h"
+#include "host/experiment/shifted_view.h"
 #include "host/experiment/tan05/tan05_table.h"
 #include "host/report/metrics.h"
 #include "host/report/picture/picture_strip.h"
@@ -189,18 +189,6 @@ View atDistance(const View& view, double factor) {
   return orbitView(view, orbit);
 }
 
-View shiftedView(const View& view, double right_px, double up_px, int height_px) {
-  const glm::dvec3 forward = view.target - view.eye;
-  const glm::dvec3 right = glm::normalize(glm::cross(forward, view.up));
-  const glm::dvec3 up = glm::normalize(glm::cross(right, forward));
-  const double pixel =
-      2 * glm::length(forward) * std::tan(0.5 * kDegree * view.fov_y_deg) / height_px;
-  View moved = view;
-  for (glm::dvec3* place : {&moved.eye, &moved.target})
-    *place += pixel * (right_px * right + up_px * up);
-  return moved;
-}
-
 Tan05View measureTan05View(BenchRun& run, const Tan05Scene& scene, const View& view,
                            const Tan05Settings& settings) {
   const Truth truth = measureTruth(run, scene, view, settings);
@@ -241,7 +229,7 @@ Tan05View measureTan05View(BenchRun& run, const Tan05Scene& scene, const View& v
 Tan05View measureTan05Distance(BenchRun& run, const Tan05Scene& scene, const View& view,
                                const std::string& view_name, const Tan05Settings& settings) {
   std::map<std::string, std::vector<Tan05Errors>> errors;
-  for (const auto& [right_px, up_px] : kTan05Shifts_px) {
+  for (const auto& [right_px, up_px] : kShifts_px) {
     const View shifted = shiftedView(view, right_px, up_px, settings.shading.height_px);
     const Truth truth = measureTruth(run, scene, shifted, settings);
     for (const Tan05Method& method : tan05Methods())

@@ -35,7 +35,7 @@ inline constexpr int kZoomFrames = 4;
 inline constexpr double kZoomStep = 1.02;
 
 const std::vector<std::string>& tan05ViewMetrics();
-/// Of a view at some distance: errors only, means over kTan05Shifts_px.
+/// Of a view at some distance: errors only, means over kShifts_px.
 const std::vector<std::string>& tan05DistanceMetrics();
 
 /// What one scene's views share: the scene and its filtered maps.
@@ -50,13 +50,6 @@ struct Tan05View {
   std::map<std::string, std::vector<Record>> records;
   Image picture;
 };
-
-/// Shifts of the picture that errors at a distance are means over, in pixels: however pixels and
-/// texels lie, some of them lie otherwise.
-inline constexpr double kTan05Shifts_px[][2] = {{0, 0}, {0.5, 0.25}, {0.25, 0.75}, {0.75, 0.5}};
-/// `view` with eye and target moved across by so many pixels of a picture `height_px` high, as they
-/// are at the target's distance.
-View shiftedView(const View& view, double right_px, double up_px, int height_px);
 
 /// `view` farther away by `factor`, its orbit's distance or its eye's.
 View atDistance(const View& view, double factor);

@@ -1,7 +1,5 @@
 #include "host/frame/effect/normal_maps.h"
 
-#include <algorithm>
-
 #include "host/core/error.h"
 #include "host/filter/interpolated_normals.h"
 #include "host/filter/normal_moments.h"
@@ -44,40 +42,44 @@ MipTexels coarserLevels(const MipTexels& chain) {
   return rest;
 }
 
-// Mixtures of the normals that lie between the map's texels as well as on them.
-NormalMixtures interpolatedMixtures(const NormalMap& map, const MixtureOptions& options,
+// Mixtures of the surface between the map's texels at the finest level too, where AREA_MIXTURE
+// programs want it.
+NormalMixtures interpolatedMixtures(const NormalMap& map, MixtureOptions options,
                                     const DiskCache& cache) {
+  options.surface = MixtureSurface::kTexels;
   NormalMixtures mixtures =
-      cachedNormalMixtures(interpolatedNormals(map, 2), options, cache).mixtures;
+      cachedNormalMixtures(interpolatedNormals(map, kSurfaceSamples), options, cache).mixtures;
   mixtures.moments = coarserLevels(mixtures.moments);
   return mixtures;
 }
 
 NormalTexture uploadMixtures(Device& device, const NormalMap& map, int lobes, bool half,
-                             MixtureOrder order, int iterations, bool interpolated) {
+                             MixtureOrder order, int iterations, bool for_area_lights) {
   const MixtureOptions options = mixtureOptions(lobes, order, iterations);
   const DiskCache cache = DiskCache::fromEnvironment();
-  const NormalMixtures mixtures = interpolated ? interpolatedMixtures(map, options, cache)
-                                               : cachedNormalMixtures(map, options, cache).mixtures;
+  const NormalMixtures mixtures = for_area_lights
+                                      ? interpolatedMixtures(map, options, cache)
+                                      : cachedNormalMixtures(map, options, cache).mixtures;
   if (!half) return uploadTexture(device, mixtures.moments);
   return uploadTexture(device, mixtures.moments.layout, packHalfMixtures(mixtures),
                        static_cast<std::size_t>(lobes) * 4 * sizeof(std::uint16_t));
 }
 
 NormalTexture makeTexture(Device& device, const NormalMap& map, NormalMethod method, int lobes,
-                          bool half, MixtureOrder order, int iterations, bool interpolated) {
+                          bool half, MixtureOrder order, int iterations, bool for_area_lights) {
   switch (method) {
     case NormalMethod::kFixed:
       return uploadTexture(device, finestNormals(map));
     case NormalMethod::kMip:
     case NormalMethod::kToksvig:
-      return uploadTexture(device, meanNormals(map));
+      // One lobe under area lights errs less by means of the texels alone.
+      return uploadTexture(device, meanNormals(map, !for_area_lights));
     case NormalMethod::kLean:
       return uploadTexture(device, leanMoments(map));
     case NormalMethod::kFournier:
       return uploadTexture(device, fournierPeaks(map, lobes));
     case NormalMethod::kGmm:
-      return uploadMixtures(device, map, lobes, half, order, iterations, interpolated);
+      return uploadMixtures(device, map, lobes, half, order, iterations, for_area_lights);
   }
   throw Error("the normal method is unknown; it must be 0 (mip) to 5 (gmm)");
 }
@@ -85,7 +87,7 @@ NormalTexture makeTexture(Device& device, const NormalMap& map, NormalMethod met
 }  // namespace
 
 MixtureOptions mixtureOptions(int lobes, MixtureOrder order, int iterations) {
-  MixtureOptions options{.lobes = lobes, .order = order};
+  MixtureOptions options{.lobes = lobes, .surface = MixtureSurface::kInterpolated, .order = order};
   if (iterations > 0) options.max_iterations = iterations;
   return options;
 }
@@ -97,9 +99,9 @@ const NormalTexture& NormalTextures::get(const std::shared_ptr<const NormalMap>&
   NormalMethod method = config.normal_method;
   if (method == NormalMethod::kMip) method = NormalMethod::kToksvig;
   const bool gmm = method == NormalMethod::kGmm;
-  // Maps that cannot be twice as large are fitted to their texels.
-  const bool interpolated = gmm && config.ltc_method == LtcMethod::kMixture &&
-                            2 * std::max(map->width_px, map->height_px) <= kMaxNormalMapSize_px;
+  const bool for_area_lights =
+      gmm ? config.ltc_method == LtcMethod::kMixture && canInterpolate(*map)
+          : config.ltc && method == NormalMethod::kToksvig;
   const int lobes = gmm ? config.lobes : method == NormalMethod::kFournier ? config.peaks : 0;
   const Key key = {map,
                    method,
@@ -107,12 +109,12 @@ const NormalTexture& NormalTextures::get(const std::shared_ptr<const NormalMap>&
                    gmm && config.half_texels,
                    gmm ? order : MixtureOrder::kColours,
                    gmm ? iterations : 0,
-                   interpolated};
+                   for_area_lights};
   const auto found = textures_.find(key);
   if (found != textures_.end()) return found->second;
   return textures_
       .emplace(key, makeTexture(device_, *map, method, lobes, config.half_texels, order, iterations,
-                                interpolated))
+                                for_area_lights))
       .first->second;
 }
 
