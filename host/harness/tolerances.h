@@ -104,6 +104,9 @@ inline constexpr double kTinyLightRelative = 0.03;
 /// The same transformed cosine in double precision: interpolation and a dozen terms in single
 /// precision. Lobes of roughness alpha turn an error of direction of 1e-7 into 1e-7 / alpha.
 inline constexpr double kSameLobe = 2e-4;
+/// Discs, spheres and tubes the same way, against a thousand facets; and against a quarter of a
+/// million rays.
+inline constexpr double kRoundLight = 1e-4, kRoundLightByRays = 3e-4;
 /// A hemisphere of light against the table's albedo: the light is 2e5 wide, not infinite, and the
 /// scale of the lobe was fitted.
 inline constexpr double kHemisphereAlbedo = 2e-3;
