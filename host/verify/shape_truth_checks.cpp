@@ -6,6 +6,7 @@
 #include "host/core/angles.h"
 #include "host/frame/ground_truth.h"
 #include "host/harness/small_scenes.h"
+#include "host/reference/beckmann.h"
 #include "host/reference/microfacet.h"
 #include "host/reference/round_light.h"
 #include "host/verify/check_groups.h"
