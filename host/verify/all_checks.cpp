@@ -15,7 +15,8 @@ std::vector<Check> allChecks() {
         areaMixtureChecks,  areaGlintChecks,   ggxChecks,         areaColourChecks,
         pictureChecks,      textureChecks,     lobeChecks,        convolutionChecks,
         normalMethodChecks, mixtureChecks,     scatterChecks,     frameChecks,
-        truthChecks,        microdetailChecks, heightFieldChecks, facetChecks}) {
+        truthChecks,        microdetailChecks, heightFieldChecks, smithWalkChecks,
+        facetChecks}) {
     std::vector<Check> checks = group();
     std::move(checks.begin(), checks.end(), std::back_inserter(all));
   }

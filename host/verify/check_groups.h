@@ -41,6 +41,7 @@ std::vector<Check> frameChecks();         // whole frames: mapped normals, one p
 std::vector<Check> truthChecks();         // ground truths
 std::vector<Check> microdetailChecks();   // that of glints
 std::vector<Check> heightFieldChecks();   // the ray caster
+std::vector<Check> smithWalkChecks();     // rays among facets of Smith's theory
 std::vector<Check> facetChecks();         // what single facets do to its rays
 
 }  // namespace glintmark
