@@ -164,7 +164,7 @@ Finding anywhere(const CheckContext& context, LightShape shape, Share share, int
   return finding;
 }
 
-Finding samePoints(const CheckContext& context) {
+Finding sameShapePoints(const CheckContext& context) {
   Finding finding(0);
   std::mt19937 random(5);
   for (const LightShape shape : {LightShape::kDisc, LightShape::kSphere, LightShape::kTube}) {
@@ -284,14 +284,14 @@ struct NamedShape {
   const char* name;
   LightShape shape;
 };
-constexpr NamedShape kShapes[] = {
+constexpr NamedShape kRoundShapes[] = {
     {"disc", LightShape::kDisc}, {"sphere", LightShape::kSphere}, {"tube", LightShape::kTube}};
 
 }  // namespace
 
 std::vector<Check> areaShapeChecks() {
   std::vector<Check> checks;
-  for (const NamedShape& named : kShapes) {
+  for (const NamedShape& named : kRoundShapes) {
     checks.push_back({fmt::format("area_shape/{}_anywhere", named.name), "absolute error",
                       [&named](const CheckContext& c) {
                         return anywhere(c, named.shape, reference::ltcOverRoundLight, kSides, 6, 96,
@@ -306,7 +306,7 @@ std::vector<Check> areaShapeChecks() {
   for (const HardShape& shape : hardShapes())
     checks.push_back({fmt::format("area_shape/{}", shape.name), "absolute error",
                       [&shape](const CheckContext& c) { return hardShape(c, shape); }});
-  checks.push_back({"area_shape/same_bits", "points that differ from one lane's", samePoints});
+  checks.push_back({"area_shape/same_bits", "points that differ from one lane's", sameShapePoints});
   return checks;
 }
 

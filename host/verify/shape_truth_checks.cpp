@@ -77,14 +77,14 @@ RoundLight seenFrom(const AreaLight& light, const glm::dvec3& point) {
   return seen;
 }
 
-glm::dvec3 rgb(const float4& v) {
+glm::dvec3 asVector(const float4& v) {
   return {v.x, v.y, v.z};
 }
 
 glm::dvec3 wantedRadiance(const Scene& scene, const glm::dvec3& point, const glm::dvec3& view) {
   const SurfaceMaterial& surface = scene.materials[0].params.surface;
-  const reference::CoatedDiffuse coat = {reference::Ndf::kGgx, surface.alpha_g.x, rgb(surface.f0),
-                                         surface.intensity};
+  const reference::CoatedDiffuse coat = {reference::Ndf::kGgx, surface.alpha_g.x,
+                                         asVector(surface.f0), surface.intensity};
   glm::dvec3 sum(0);
   for (const AreaLight& light : scene.area_lights)
     for (const reference::LightPiece& piece :
@@ -92,12 +92,12 @@ glm::dvec3 wantedRadiance(const Scene& scene, const glm::dvec3& point, const glm
       const glm::dvec3& l = piece.direction;
       if (l.z <= 0) continue;
       const glm::dvec3 fresnel =
-          reference::schlick(rgb(surface.f0), glm::dot(l, glm::normalize(l + view)));
+          reference::schlick(asVector(surface.f0), glm::dot(l, glm::normalize(l + view)));
       sum +=
           light.radiance * piece.angle_sr *
           (static_cast<double>(surface.intensity) * fresnel *
                reference::microfacetTimesCosine(reference::Ndf::kGgx, l, view, surface.alpha_g.x) +
-           rgb(surface.albedo) * coat.share(view.z) * l.z / kPi);
+           asVector(surface.albedo) * coat.share(view.z) * l.z / kPi);
     }
   return sum;
 }

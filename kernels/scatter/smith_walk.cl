@@ -59,7 +59,7 @@ WIDE vmask flyOn(Walk* walk, constant const HeightfieldRun* run) {
   const vmask leaves = walk->alive & (walk->direction.z > 0.0f) & (log_u <= log_below * lambda);
   const vfloat safe = fabs(lambda) > 1e-6f ? lambda : (vfloat)(1e-6f);
   const vfloat log_met = min(log_below - log_u / safe, (vfloat)(0.0f));
-  walk->below = walk->alive & !leaves ? wideExp2(log_met) : walk->below;
+  walk->below = (walk->alive & !leaves) ? wideExp2(log_met) : walk->below;
   return leaves;
 }
 
