@@ -160,7 +160,7 @@ Finding anywhere(const CheckContext& context, LightShape shape, Share share, int
       }
     }
   }
-  finding.require(most > 0.3, "hardly any light");
+  finding.require(most > 0.1, "hardly any light");
   return finding;
 }
 
@@ -299,7 +299,7 @@ std::vector<Check> areaShapeChecks() {
                       }});
     checks.push_back({fmt::format("area_shape/{}_by_rays", named.name), "absolute error",
                       [&named](const CheckContext& c) {
-                        return anywhere(c, named.shape, reference::ltcByRays, kRaysAcross, 2, 16,
+                        return anywhere(c, named.shape, reference::ltcByRays, kRaysAcross, 4, 10,
                                         kRoundLightByRays);
                       }});
   }

@@ -16,7 +16,7 @@ namespace {
 
 using reference::RoundLight;
 
-constexpr int kPictureSize_px = 8, kSamples = 2048, kPieceSteps = 64;
+constexpr int kPictureSize_px = 8, kSamples = 8192, kPieceSteps = 64;
 // Samples of lights are random and weighted: good to 1 or 2 % a pixel, and worst of 64; the mean of
 // all has an eighth of it, unless something is missing.
 constexpr double kWorstPixel = 0.1, kMean = 0.008;
@@ -61,7 +61,7 @@ const std::vector<TruthShape>& truthShapes() {
         {"tube",
          LightShape::kTube,
          {shapeLight(LightShape::kTube, {-1, 1, -1}, {2, 0.3, 0.2}, 0.15, warm),
-          shapeLight(LightShape::kTube, {1.5, -0.5, -0.3}, {0.2, 1.5, 0.1}, 0.25, cold)}}};
+          shapeLight(LightShape::kTube, {2, -0.5, -0.3}, {0.2, 1.5, 0.1}, 0.25, cold)}}};
   }();
   return shapes;
 }
