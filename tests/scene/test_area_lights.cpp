@@ -65,7 +65,10 @@ TEST(AreaLights, BadShapes) {
 TEST(AreaLights, DiscsSpheresAndTubes) {
   const TemporaryFolder folder;
   const auto lightOf = [&](const std::string& keys) {
-    return load(folder.write("scene.toml", withLight(keys))).area_lights.at(0);
+    const std::string text =
+        "[mesh]\ngenerator = 'plane'\n[[material]]\nname = 'm'\ntype = 'smooth'\n"
+        "[[view]]\nname = 'v'\n[[area_light]]\n";
+    return load(folder.write("scene.toml", text + keys + "\n")).area_lights.at(0);
   };
   AreaLight light = lightOf("shape = 'disc'\ncentre = [1, 2, 3]\nnormal = [0, 0, 2]\nradius = 0.5");
   EXPECT_EQ(light.shape, LightShape::kDisc);
