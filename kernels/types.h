@@ -80,20 +80,29 @@ typedef struct FrameParams {
 
 #define GM_MAX_LIGHT_VERTICES 8u
 
-// A flat convex polygon that emits the same radiance in all directions, made ready for the kernels
-// by host/frame.
+// A light that emits the same radiance in all directions, made ready for the kernels by host/frame:
+// a flat convex polygon, or a shape with a round side.
+//
+// A disc has its centre in vertices[0]; a tube, which is closed by a disc at either end, has its
+// ends in vertices[0] and [1]. Vertices 2 and 3 of both are two radii at right angles to each other
+// and to the disc's normal or the tube's axis, as vectors. A sphere has its centre and that alone.
 typedef struct AreaLightParams {
   float4
       vertices[GM_MAX_LIGHT_VERTICES];  // xyz: world axes, relative to the eye, counter-clockwise
                                         // from the front; the last is repeated; w unused
-  float4 plane;       // xyz: unit normal of the front; w: its component along that normal
-  float4 radiance;    // rgb; w unused
-  float back;         // -1: the back emits as well, 0: it is black
-  uint vertex_count;  // 3 to GM_MAX_LIGHT_VERTICES
-  float area;         // scene units squared
-  uint texture;       // index of its texture, where it has one; else NO_LIGHT_TEXTURE
+  float4 plane;     // xyz: unit normal of the front; w: its component along that normal. Of a tube:
+                    // unit axis from its first end to the other, and its length
+  float4 radiance;  // rgb; w: radius of a disc, sphere or tube
+  float back;       // -1: the back (of a sphere or tube: the inside) emits as well, 0: it is black
+  uint shape;       // 3 to GM_MAX_LIGHT_VERTICES: vertices of a polygon; or LIGHT_DISC and so on
+  float area;       // scene units squared
+  uint texture;     // index of its texture, where it has one; else NO_LIGHT_TEXTURE
 } AreaLightParams;
 #define NO_LIGHT_TEXTURE 0xFFFFFFFFu
+#define LIGHT_DISC 0u
+#define LIGHT_SPHERE 1u
+#define LIGHT_TUBE 2u
+#define LEAST_LIGHT_VERTICES 3u
 
 // Levels of the largest texture, 32768 texels wide.
 #define GM_MAX_MIP_LEVELS 16u

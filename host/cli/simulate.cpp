@@ -25,7 +25,7 @@ namespace {
 constexpr double kCheckpointEvery_ns = 10e9;
 
 struct SimulateOptions {
-  std::string surface = "diffuse";
+  std::string surface = "diffuse", model = "heights";
   std::vector<double> alpha = {0.8};
   double rays = 1 << 24;
   double albedo = 1;
@@ -41,9 +41,16 @@ SurfaceKind parseSurface(const std::string& name) {
   throw Error(fmt::format("unknown surface '{}'; surfaces are diffuse, metal, dielectric", name));
 }
 
+SurfaceModel parseModel(const std::string& name) {
+  if (name == "heights") return SurfaceModel::kHeights;
+  if (name == "smith") return SurfaceModel::kSmith;
+  throw Error(fmt::format("unknown model '{}'; models are heights, smith", name));
+}
+
 SimulationSettings makeSettings(const SimulateOptions& options) {
   SimulationSettings settings = options.settings;
   settings.kind = parseSurface(options.surface);
+  settings.model = parseModel(options.model);
   settings.alpha = {options.alpha.front(), options.alpha.back()};
   if (!(options.rays >= 0 && options.rays <= 281474976710656.0))
     throw Error(fmt::format("--rays {} is not from 1 to 2^48", options.rays));
@@ -134,6 +141,16 @@ std::string energyCsv(const Simulation& simulation, double albedo) {
   return text;
 }
 
+std::string slopesText(const Simulator& simulator, const SimulationSettings& settings) {
+  const SlopeMoments m =
+      slopeMoments(simulator.surface().readCounts(), simulator.surface().countHeight());
+  const glm::dvec2 nominal = 0.5 * settings.alpha * settings.alpha;
+  return fmt::format(
+      "slope variance along x and y: {:.6f} and {:.6f} nominal, {:.6f} and {:.6f} effective in the "
+      "last surface\n",
+      nominal.x, nominal.y, 2 * nominal.x * m.variance_x, 2 * nominal.y * m.variance_y);
+}
+
 int runSimulate(const CommandLine& line, const SimulateOptions& options) {
   const SimulationSettings settings = makeSettings(options);
   for (const std::string& file : {options.checkpoint, options.picture, options.csv})
@@ -156,16 +173,10 @@ int runSimulate(const CommandLine& line, const SimulateOptions& options) {
   fmt::print("{}, {} rays\n\n{}", describeSettings(settings), simulation.rays_done,
              energyTable(simulation, options.albedo));
   if (simulation.rays_done > before) {
-    const SlopeMoments m =
-        slopeMoments(simulator.surface().readCounts(), simulator.surface().countHeight());
-    const glm::dvec2 nominal = 0.5 * settings.alpha * settings.alpha;
+    if (settings.model == SurfaceModel::kHeights) fmt::print("{}", slopesText(simulator, settings));
     const double seconds = (simulator.traceNs() + simulator.surfaceNs()) * 1e-9;
-    fmt::print(
-        "slope variance along x and y: {:.6f} and {:.6f} nominal, {:.6f} and {:.6f} effective in "
-        "the "
-        "last surface\n{:.2f} s, {:.2f} million rays per second\n",
-        nominal.x, nominal.y, 2 * nominal.x * m.variance_x, 2 * nominal.y * m.variance_y, seconds,
-        static_cast<double>(simulation.rays_done - before) / seconds * 1e-6);
+    fmt::print("{:.2f} s, {:.2f} million rays per second\n", seconds,
+               static_cast<double>(simulation.rays_done - before) / seconds * 1e-6);
   }
   if (simulation.gaveUp() > 0)
     fmt::print("{} rays met the limit of {} steps and count as left over\n", simulation.gaveUp(),
@@ -183,6 +194,8 @@ void addSimulateCommand(Command app, CommandLine& line) {
   Command command =
       app.subcommand("simulate", "Casts rays at a rough surface and counts what leaves");
   command.option("--surface", options->surface, "diffuse, metal or dielectric").typeName("KIND");
+  command.option("--model", options->model, "heights, or smith: facets without (heights)")
+      .typeName("MODEL");
   command.option("--alpha", options->alpha, "Beckmann roughness, one or along x and y (0.8)")
       .values(1, 2);
   command.option("--incidence", s.incidence_deg, "Of the light, degrees from the normal (45)");

@@ -25,15 +25,19 @@ void writeEmitter(MitsubaScene& to, const glm::dvec3& radiance) {
   to.xml.close();
 }
 
+void writeBlackSurface(MitsubaScene& to) {
+  to.xml.open("bsdf", {{"type", "diffuse"}});
+  to.xml.leaf("rgb", {{"name", "reflectance"}, {"value", "0, 0, 0"}});
+  to.xml.close();
+}
+
 // Light shapes reflect nothing.
 void openLightShape(MitsubaScene& to, const PlyMesh& mesh, const std::string& name) {
   writePly(mesh, to.folder / name);
   to.xml.open("shape", {{"type", "ply"}});
   to.xml.leaf("string", {{"name", "filename"}, {"value", name}});
   to.xml.leaf("boolean", {{"name", "face_normals"}, {"value", "true"}});
-  to.xml.open("bsdf", {{"type", "diffuse"}});
-  to.xml.leaf("rgb", {{"name", "reflectance"}, {"value", "0, 0, 0"}});
-  to.xml.close();
+  writeBlackSurface(to);
 }
 
 struct Bounds {
@@ -128,7 +132,71 @@ void writePictureEmitter(MitsubaScene& to, const AreaLight& light, const std::st
   to.xml.close();
 }
 
+// A disc of Mitsuba's: the unit one about the origin, which faces +z, moved there.
+void writeDisc(MitsubaScene& to, const glm::dvec3& centre, const glm::dvec3& normal, double radius,
+               const glm::dvec3& radiance) {
+  const glm::dvec3 n = glm::normalize(normal);
+  const auto radii = lightRadii(n, radius);
+  to.xml.open("shape", {{"type", "disk"}});
+  to.xml.open("transform", {{"name", "to_world"}});
+  std::string rows;
+  for (int row = 0; row < 3; ++row)
+    rows += fmt::format("{} {} {} {} ", radii[0][row], radii[1][row], radius * n[row], centre[row]);
+  to.xml.leaf("matrix", {{"value", rows + "0 0 0 1"}});
+  to.xml.close();
+  writeBlackSurface(to);
+  writeEmitter(to, radiance);
+  to.xml.close();
+}
+
+// A sphere, or the side of a tube.
+void writeCurvedSide(MitsubaScene& to, const AreaLight& light, bool inside) {
+  const bool tube = light.shape == LightShape::kTube;
+  to.xml.open("shape", {{"type", tube ? "cylinder" : "sphere"}});
+  to.xml.leaf("boolean", {{"name", "flip_normals"}, {"value", inside ? "true" : "false"}});
+  to.xml.leaf("float", {{"name", "radius"}, {"value", fmt::format("{}", light.radius)}});
+  const auto point = [&](const char* name, const glm::dvec3& p) {
+    to.xml.leaf("point", {{"name", name},
+                          {"x", fmt::format("{}", p.x)},
+                          {"y", fmt::format("{}", p.y)},
+                          {"z", fmt::format("{}", p.z)}});
+  };
+  if (tube) {
+    point("p0", light.centre);
+    point("p1", light.centre + light.axis);
+  } else {
+    point("center", light.centre);
+  }
+  writeBlackSurface(to);
+  writeEmitter(to, light.radiance);
+  to.xml.close();
+}
+
+// The inside is one more shape, a little smaller, so that a ray meets the side that it comes from.
+void writeRoundLight(MitsubaScene& to, const AreaLight& light) {
+  for (const bool back : {false, true}) {
+    if (back && !light.two_sided) continue;
+    const glm::dvec3 axis = light.axis;
+    const double apart = back ? kApart * light.radius : 0.0;
+    if (light.shape == LightShape::kDisc) {
+      writeDisc(to, light.centre - apart * axis, back ? -axis : axis, light.radius, light.radiance);
+      continue;
+    }
+    AreaLight side = light;
+    side.radius -= apart;
+    writeCurvedSide(to, side, back);
+    if (light.shape == LightShape::kSphere) continue;
+    const glm::dvec3 inwards = apart * glm::normalize(axis);
+    writeDisc(to, light.centre + inwards, back ? axis : -axis, side.radius, light.radiance);
+    writeDisc(to, light.centre + axis - inwards, back ? -axis : axis, side.radius, light.radiance);
+  }
+}
+
 void writeAreaLight(MitsubaScene& to, const AreaLight& light, std::size_t number) {
+  if (light.shape != LightShape::kPolygon) {
+    writeRoundLight(to, light);
+    return;
+  }
   for (const bool back : {false, true}) {
     if (back && !light.two_sided) continue;
     openLightShape(to, polygonOf(light, back),

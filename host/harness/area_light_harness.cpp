@@ -53,7 +53,11 @@ std::vector<glm::vec3> lightPoints(KernelBench& bench, const AreaLightProbe& pro
                                    const std::vector<HandMadePoint>& points) {
   const std::size_t stride = paddedCount(points.size());
   std::size_t vertices = 3;
-  for (const AreaLight& light : probe.lights) vertices = std::max(vertices, light.vertices.size());
+  bool shapes = false;
+  for (const AreaLight& light : probe.lights) {
+    vertices = std::max(vertices, light.vertices.size());
+    shapes = shapes || light.shape != LightShape::kPolygon;
+  }
   const bool diffuse = probe.material.surface.albedo.x > 0;
   Buffer out(bench.device, 3 * stride * 4, BufferPurpose::kProbe);
   const Pictures pictures = picturesOf(probe.lights);
@@ -73,9 +77,10 @@ std::vector<glm::vec3> lightPoints(KernelBench& bench, const AreaLightProbe& pro
     args.push_back(arg);
   probeKernel(bench, kProbes, "probeAreaLights",
               fmt::format("-D WIDTH={} -D LTC=1 -D LIGHT_VERTICES={} -D DIFFUSE={:d} "
-                          "-D CLIPLESS={:d} -D LIGHT_TEXTURE={:d} -D ALBEDO_SCALING={:d}",
+                          "-D CLIPLESS={:d} -D LIGHT_TEXTURE={:d} -D ALBEDO_SCALING={:d} "
+                          "-D LIGHT_SHAPES={:d}",
                           probe.width, vertices, diffuse, probe.clipless, textured,
-                          diffuse && probe.material.surface.intensity > 0))
+                          diffuse && probe.material.surface.intensity > 0, shapes))
       .launch(args, stride / static_cast<std::size_t>(probe.width), kLocalSize);
   std::vector<float> values(3 * stride);
   out.read(values.data(), values.size() * 4);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "host/core/shared_types.h"
 
@@ -76,11 +77,38 @@ std::string areaLightComplaint(const AreaLight& light) {
 }
 
 glm::dvec3 areaLightNormal(const AreaLight& light) {
+  switch (light.shape) {
+    case LightShape::kDisc:
+    case LightShape::kTube:
+      return glm::normalize(light.axis);
+    case LightShape::kSphere:
+      return glm::dvec3(0);
+    case LightShape::kPolygon:
+      break;
+  }
   return glm::normalize(newellNormal(light.vertices));
 }
 
 double areaLightArea(const AreaLight& light) {
+  const double disc = std::numbers::pi * light.radius * light.radius;
+  switch (light.shape) {
+    case LightShape::kDisc:
+      return disc;
+    case LightShape::kSphere:
+      return 4 * disc;
+    case LightShape::kTube:
+      return 2 * disc + 2 * std::numbers::pi * light.radius * glm::length(light.axis);
+    case LightShape::kPolygon:
+      break;
+  }
   return 0.5 * glm::length(newellNormal(light.vertices));
+}
+
+std::array<glm::dvec3, 2> lightRadii(const glm::dvec3& axis, double radius) {
+  const glm::dvec3 n = glm::normalize(axis);
+  const glm::dvec3 aside = std::abs(n.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+  const glm::dvec3 u = glm::normalize(glm::cross(aside, n));
+  return {radius * u, radius * glm::cross(n, u)};
 }
 
 bool isParallelogram(const AreaLight& light) {

@@ -1,5 +1,6 @@
-// Flat polygon lights of a scene.
+// Area lights of a scene: flat polygons, discs, spheres and tubes.
 #pragma once
+#include <array>
 #include <glm/glm.hpp>
 #include <string>
 #include <vector>
@@ -8,26 +9,45 @@
 
 namespace glintmark {
 
-/// A flat convex polygon that emits the same radiance in all directions.
+enum class LightShape {
+  kPolygon,  // flat and convex
+  kDisc,
+  kSphere,
+  kTube  // a cylinder closed by a disc at either end
+};
+
+/// A light that emits the same radiance in all directions.
 struct AreaLight {
   std::string name;
-  std::vector<glm::dvec3> vertices;  // 3 to 8, world space, counter-clockwise seen from the front
+  LightShape shape = LightShape::kPolygon;
+  /// Of a polygon: 3 to 8, world space, counter-clockwise seen from the front.
+  std::vector<glm::dvec3> vertices;
   glm::dvec3 radiance{1};
-  bool two_sided = false;
+  bool two_sided = false;  // the back emits too, of spheres and tubes the inside
+  /// Of the other shapes, world space: the centre of a disc or sphere, one end of a tube.
+  glm::dvec3 centre{0};
+  glm::dvec3 axis{0, 1, 0};  // a disc's unit normal; from a tube's end to its other end
+  double radius = 0;
   /// Factor on the radiance, linear rgb, row by row from the top; empty: 1 everywhere. Only
   /// parallelograms have one: its lower left corner is the first vertex, its lower right the
   /// second.
   Image texture;
 };
 
-/// What is wrong with the shape of a light, as the end of a sentence ("has 2 vertices, expected 3
-/// to 8"), or empty: too few or too many vertices, values that are not finite, equal neighbours, no
-/// area, not flat, not convex.
+/// What is wrong with the outline of a polygon, as the end of a sentence ("has 2 vertices, expected
+/// 3 to 8"), or empty: too few or too many vertices, values that are not finite, equal neighbours,
+/// no area, not flat, not convex.
 std::string areaLightComplaint(const AreaLight& light);
 
-/// Unit normal of the front (right-hand rule) and area of a polygon that has no complaint.
+/// Unit normal of the front of a polygon that has no complaint (right-hand rule) or of a disc; of a
+/// tube the direction of its axis; of a sphere 0.
 glm::dvec3 areaLightNormal(const AreaLight& light);
+/// Area of the surface, both ends of a tube included, one side of a polygon or disc.
 double areaLightArea(const AreaLight& light);
+
+/// Two vectors as long as `radius`, at right angles to each other and to `axis`, right-handed with
+/// it.
+std::array<glm::dvec3, 2> lightRadii(const glm::dvec3& axis, double radius);
 
 /// Is the light a parallelogram, to a thousandth of its size?
 bool isParallelogram(const AreaLight& light);

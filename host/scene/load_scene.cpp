@@ -71,6 +71,19 @@ void replaceViews(const std::vector<View>& own_views, std::vector<View>& views) 
   }
 }
 
+/// Microdetails are drawn under polygons; under other area lights nothing counts them.
+void requirePolygonsForGlints(SceneTable& root, const Scene& scene) {
+  const auto glints = std::ranges::find_if(scene.materials, &Material::has_glints);
+  const auto round = std::ranges::find_if(
+      scene.area_lights, [](const AreaLight& l) { return l.shape != LightShape::kPolygon; });
+  if (glints == scene.materials.end() || round == scene.area_lights.end()) return;
+  root.fail(
+      "area_light",
+      fmt::format("has a disc, sphere or tube ('{}'), but material '{}' has glints, which are "
+                  "drawn under polygons only; expected vertices or a rectangle",
+                  round->name, glints->name));
+}
+
 void readPost(SceneTable& root, PostEffects& post) {
   std::optional<SceneTable> table = root.table("post");
   if (!table) return;
@@ -104,6 +117,7 @@ PlannedScene planScene(toml::table& content, const std::string& file, const Scen
   if (scene.views.empty()) root.fail("view", "is missing, expected at least one [[view]]");
   scene.lights = readLights(root);
   scene.area_lights = readAreaLights(root, request);
+  requirePolygonsForGlints(root, scene);
   readPost(root, scene.post);
   MeshPlan plan = readMesh(root, request, scene.materials);
   scene.environment = readEnvironment(root, request, scene.lights);

@@ -12,6 +12,7 @@ namespace {
 
 constexpr int kPaintedSize_px = 256;
 constexpr int kMaxTextureSize_px = 4096;
+constexpr const char* kPolygonShape = "polygon";
 
 std::vector<glm::dvec3> readRectangle(SceneTable& table) {
   const glm::dvec3 centre = table.vector3("centre", glm::dvec3(0));
@@ -27,7 +28,7 @@ std::vector<glm::dvec3> readRectangle(SceneTable& table) {
   return rectangleVertices(centre, normal, up, size);
 }
 
-std::vector<glm::dvec3> readShape(SceneTable& table) {
+std::vector<glm::dvec3> readOutline(SceneTable& table) {
   std::optional<SceneTable> rectangle = table.table("rectangle");
   const std::vector<glm::dvec3> vertices = table.colours("vertices", kFinite);
   if (rectangle && !vertices.empty())
@@ -35,6 +36,50 @@ std::vector<glm::dvec3> readShape(SceneTable& table) {
   if (!rectangle && !table.has("vertices"))
     table.fail("vertices", "is missing, expected 3 to 8 points, or else a rectangle");
   return rectangle ? readRectangle(*rectangle) : vertices;
+}
+
+// Beyond these a radius and its square do not go together in single precision.
+constexpr Range kLightRadius{1e-12, 1e12};
+
+double readRadius(SceneTable& table) {
+  if (!table.has("radius")) table.fail("radius", "is missing, expected that of the light's shape");
+  return table.number("radius", 1, kLightRadius);
+}
+
+void readEnds(SceneTable& table, AreaLight& light) {
+  const std::vector<glm::dvec3> ends = table.colours("ends", kFinite);
+  if (ends.size() != 2)
+    table.fail("ends", fmt::format("has {} points, expected the 2 ends of the tube", ends.size()));
+  light.centre = ends[0];
+  light.axis = ends[1] - ends[0];
+  if (!(glm::length(light.axis) > 1e-6 * light.radius))
+    table.fail("ends", "are in the same place, expected a tube that is longer than a disc");
+}
+
+// The keys of a light that is no polygon.
+void readRoundShape(SceneTable& table, const std::string& name, AreaLight& light) {
+  for (const char* key : {"vertices", "rectangle"})
+    if (table.has(key))
+      table.fail(key,
+                 fmt::format("comes with the shape '{}', expected one way or the other", name));
+  for (const char* key : {"texture", "image"})
+    if (table.has(key))
+      table.fail(key, fmt::format("comes with the shape '{}', expected a parallelogram for a light "
+                                  "with a picture",
+                                  name));
+  light.radius = readRadius(table);
+  if (name == "tube") {
+    light.shape = LightShape::kTube;
+    readEnds(table, light);
+    return;
+  }
+  light.centre = table.vector3("centre", glm::dvec3(0));
+  light.shape = LightShape::kSphere;
+  if (name == "sphere") return;
+  light.shape = LightShape::kDisc;
+  const glm::dvec3 normal = table.vector3("normal", glm::dvec3(0, -1, 0));
+  if (glm::length(normal) == 0) table.fail("normal", "is 0, expected where the disc faces");
+  light.axis = glm::normalize(normal);
 }
 
 Image readTexture(SceneTable& table, const SceneRequest& request) {
@@ -69,7 +114,15 @@ AreaLight readAreaLight(SceneTable& table, const SceneRequest& request) {
   light.name = table.text("name");
   light.radiance = table.vector3("radiance", glm::dvec3(1), kNotNegative);
   light.two_sided = table.flag("two_sided", false);
-  light.vertices = readShape(table);
+  const std::string shape = table.text("shape", kPolygonShape);
+  if (shape == "disc" || shape == "sphere" || shape == "tube") {
+    readRoundShape(table, shape, light);
+    table.finish();
+    return light;
+  }
+  if (shape != kPolygonShape)
+    table.fail("shape", fmt::format("is '{}', expected polygon, disc, sphere, tube", shape));
+  light.vertices = readOutline(table);
   const std::string complaint = areaLightComplaint(light);
   if (!complaint.empty()) table.fail("vertices", complaint);
   light.texture = readTexture(table, request);

@@ -78,6 +78,10 @@ void validate(const SimulationSettings& s) {
                     s.index_n));
   if (s.kind == SurfaceKind::kMetal)
     requireRange("imaginary index of refraction k", s.index_k, 0, 1000);
+  if (s.model == SurfaceModel::kSmith && s.kind == SurfaceKind::kDielectric)
+    throw Error("Smith's walk is of diffuse surfaces and metals; choose one of those, or heights");
+  if (s.model == SurfaceModel::kSmith && s.last_bounce_leaves)
+    throw Error("a last bounce that leaves is of heights; Smith's walk has none");
   if (s.rays == 0) throw Error("0 rays are too few; it must be at least 1");
   if (s.rays > (std::uint64_t{1} << 48))
     throw Error(fmt::format("{} rays are too many; it must be at most 2^48", s.rays));
@@ -130,14 +134,18 @@ Simulator::Simulator(Device& device, ProgramCache& cache, int lanes)
     : device_(device), cache_(cache), lanes_(lanes) {}
 
 void Simulator::prepare(const SimulationSettings& settings) {
-  if (surface_ && settings == settings_) return;
+  if (!run_.empty() && settings == settings_) return;
   validate(settings);
-  if (!surface_ || settings.correlation_texels != settings_.correlation_texels)
+  const bool heights = settings.model == SurfaceModel::kHeights;
+  if (heights && (!surface_ || settings.correlation_texels != settings_.correlation_texels))
     surface_ = std::make_unique<SurfaceMaker>(device_, cache_, settings.correlation_texels);
-  trace_ = cache_.getWithOptions("scatter/heightfield.cl", traceOptions(settings, lanes_))
-               .kernel("traceRays");
+  trace_ = cache_
+               .getWithOptions(heights ? "scatter/heightfield.cl" : "scatter/smith_walk.cl",
+                               traceOptions(settings, lanes_))
+               .kernel(heights ? "traceRays" : "walkRays");
+  const auto lanes = heights ? laneCount(lanes_) : static_cast<std::uint32_t>(lanes_);
   const HeightfieldRun run =
-      makeRun(settings, surface_->countHeight(), raysPerItem(device_) / laneCount(lanes_));
+      makeRun(settings, heights ? surface_->countHeight() : 0.0f, raysPerItem(device_) / lanes);
   run_ = Buffer(device_, sizeof run, BufferPurpose::kSimulation, "the simulation's parameters");
   run_.write(&run, sizeof run);
   if (outcomes_.empty()) {
@@ -148,6 +156,21 @@ void Simulator::prepare(const SimulationSettings& settings) {
   settings_ = settings;
 }
 
+void Simulator::launch(const SimulationSettings& settings, std::uint32_t seed, std::uint64_t rays) {
+  const std::size_t items = (rays + raysPerItem(device_) - 1) / raysPerItem(device_);
+  const std::size_t local_size = device_.info().is_cpu ? kCpuLocalSize : kGpuLocalSize;
+  const auto ray_count = static_cast<std::uint32_t>(rays);
+  if (settings.model == SurfaceModel::kSmith) {
+    const KernelArg args[] = {run_, seed, ray_count, outcomes_};
+    trace_ns_ += trace_.launch(args, items, local_size).wall_ns;
+    return;
+  }
+  surface_ns_ += surface_->draw(seed, settings.kind == SurfaceKind::kDielectric);
+  const KernelArg args[] = {surface_->heights(), surface_->cones(), run_, seed,
+                            ray_count,           outcomes_};
+  trace_ns_ += trace_.launch(args, items, local_size).wall_ns;
+}
+
 void Simulator::advance(Simulation& simulation) {
   const SimulationSettings& settings = simulation.settings;
   prepare(settings);
@@ -155,16 +178,7 @@ void Simulator::advance(Simulation& simulation) {
   if (simulation.rays_done >= settings.rays) return;
   const std::uint32_t seed = launchSeed(settings.seed, simulation.rays_done / kRaysPerSurface);
   const std::uint64_t rays = std::min(kRaysPerSurface, settings.rays - simulation.rays_done);
-  surface_ns_ += surface_->draw(seed, settings.kind == SurfaceKind::kDielectric);
-  const KernelArg args[] = {surface_->heights(),
-                            surface_->cones(),
-                            run_,
-                            seed,
-                            static_cast<std::uint32_t>(rays),
-                            outcomes_};
-  const std::size_t items = (rays + raysPerItem(device_) - 1) / raysPerItem(device_);
-  trace_ns_ +=
-      trace_.launch(args, items, device_.info().is_cpu ? kCpuLocalSize : kGpuLocalSize).wall_ns;
+  launch(settings, seed, rays);
   outcomes_.read(words_.data(), rays * 4);
   for (std::size_t i = 0; i < rays; ++i) ++simulation.histogram[words_[i]];
   simulation.rays_done += rays;

@@ -1,4 +1,6 @@
 // Brute-force scattering at rough surfaces: rays in, histograms of directions out.
+// [Heitz 2016] Heitz, Hanika, d'Eon, Dachsbacher, "Multiple-Scattering Microfacet BSDFs with the
+// Smith Model", SIGGRAPH 2016.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -12,11 +14,16 @@
 
 namespace glintmark {
 
+/// What the rays meet: facets of random heights, or those of Smith's theory, whose heights know
+/// nothing of their slopes and of one another [Heitz 2016].
+enum class SurfaceModel : int { kHeights = 0, kSmith = 1 };
+
 enum class SurfaceKind : int { kDiffuse = 0, kMetal = 1, kDielectric = 2 };
 
 /// What to simulate. The microfacets' albedo is not among it: of what a diffuse surface of albedo
 /// rho reflects at order S, the counts are for rho = 1 and rho^S times as much is left.
 struct SimulationSettings {
+  SurfaceModel model = SurfaceModel::kHeights;  // Smith's has no dielectrics
   SurfaceKind kind = SurfaceKind::kDiffuse;
   glm::dvec2 alpha{0.8};      // Beckmann roughness along x and y, 1e-4 to 2
   double incidence_deg = 45;  // from the normal, [0, 89.95]
@@ -26,7 +33,7 @@ struct SimulationSettings {
   int orders = 4;             // 1 to HF_MAX_ORDERS
   std::uint64_t rays = std::uint64_t{1} << 24;
   std::uint32_t seed = 1;
-  double correlation_texels = 3;
+  double correlation_texels = 3;  // of heights
   /// Rays leave after the last order without shadowing: for tests against closed forms.
   bool last_bounce_leaves = false;
 
@@ -72,7 +79,7 @@ class Simulator {
   /// The whole simulation.
   Simulation run(const SimulationSettings& settings);
 
-  /// The last surface.
+  /// The last surface of heights; there is none before one was drawn.
   const SurfaceMaker& surface() const { return *surface_; }
   /// Wall time spent in tracing kernels, and in drawing surfaces [ns].
   double traceNs() const { return trace_ns_; }
@@ -80,6 +87,7 @@ class Simulator {
 
  private:
   void prepare(const SimulationSettings& settings);
+  void launch(const SimulationSettings& settings, std::uint32_t seed, std::uint64_t rays);
 
   Device& device_;
   ProgramCache& cache_;
@@ -94,7 +102,7 @@ class Simulator {
 
 inline constexpr std::uint64_t kRaysPerSurface = std::uint64_t{1} << 20;
 
-/// Options of heightfield.cl for a simulation.
+/// Options of heightfield.cl, or of smith_walk.cl, for a simulation.
 std::string traceOptions(const SimulationSettings& settings, int lanes);
 
 }  // namespace glintmark

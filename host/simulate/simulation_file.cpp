@@ -27,9 +27,10 @@ std::string takeLine(const std::string& text, std::size_t& position) {
 std::string describeSettings(const SimulationSettings& s) {
   constexpr const char* kKinds[] = {"diffuse", "metal", "dielectric"};
   std::string text =
-      fmt::format("{} alpha={},{} incidence={} azimuth={} orders={} seed={} l={}",
-                  kKinds[static_cast<int>(s.kind)], s.alpha.x, s.alpha.y, s.incidence_deg,
-                  s.azimuth_deg, s.orders, s.seed, s.correlation_texels);
+      fmt::format("{}{} alpha={},{} incidence={} azimuth={} orders={} seed={}",
+                  s.model == SurfaceModel::kSmith ? "smith " : "", kKinds[static_cast<int>(s.kind)],
+                  s.alpha.x, s.alpha.y, s.incidence_deg, s.azimuth_deg, s.orders, s.seed);
+  if (s.model == SurfaceModel::kHeights) text += fmt::format(" l={}", s.correlation_texels);
   if (s.kind != SurfaceKind::kDiffuse) text += fmt::format(" n={}", s.index_n);
   if (s.kind == SurfaceKind::kMetal) text += fmt::format(" k={}", s.index_k);
   if (s.last_bounce_leaves) text += " last-bounce-leaves";

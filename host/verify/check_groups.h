@@ -24,6 +24,8 @@ std::vector<Check> mappedConeChecks();    // spread normals under them
 std::vector<Check> hardPixelChecks();     // footprints, materials and lights at their limits
 std::vector<Check> polygonChecks();       // area lights over a cosine
 std::vector<Check> areaLightChecks();     // area lights over transformed cosines
+std::vector<Check> areaShapeChecks();     // discs, spheres and tubes
+std::vector<Check> shapeTruthChecks();    // their ground truths
 std::vector<Check> areaMixtureChecks();   // area lights over mixtures of normals
 std::vector<Check> areaGlintChecks();     // glints under area lights
 std::vector<Check> ggxChecks();           // GGX lobes and their glints
@@ -39,6 +41,7 @@ std::vector<Check> frameChecks();         // whole frames: mapped normals, one p
 std::vector<Check> truthChecks();         // ground truths
 std::vector<Check> microdetailChecks();   // that of glints
 std::vector<Check> heightFieldChecks();   // the ray caster
+std::vector<Check> smithWalkChecks();     // rays among facets of Smith's theory
 std::vector<Check> facetChecks();         // what single facets do to its rays
 
 }  // namespace glintmark

@@ -25,6 +25,7 @@
 
 #include "scatter/height_bounce.clh"
 #include "scatter/height_walk.clh"
+#include "scatter/outcome.clh"
 
 // Waiting rays that end a round of flying.
 #if WIDTH == 1
@@ -71,24 +72,14 @@ WIDE void setDirection(Flight* f, vfloat3 d, constant const HeightfieldRun* run,
   setFlight(&f->ray, d.x * run->alpha.x, d.y * run->alpha.y, dz, f->side, which);
 }
 
-// Writes how the rays of `which` end. The outcomes behind the last ray's are nobody's.
-WIDE void finish(const Flight* f, global uint* outcomes, uint ray_count, vint word, vmask which) {
-  scatterUint(bitsToUint(word), outcomes,
-              which ? bitsToInt(f->id) : bitsToInt(laneNumbers() + ray_count));
-}
-
 // The histogram's word of rays that leave.
 WIDE vint leavingWord(const Flight* f, constant const HeightfieldRun* run) {
   const vfloat3 d = realDirection(f, run);
-  const vint cosine = toInt((1.0f - fabs(d.z)) * (float)HF_COSINES);
-  const vint azimuth = toInt(angleTurns(d.x, d.y) * (float)HF_AZIMUTHS);
   vint block = f->order - 1;
 #if REFRACTION
   block += f->side < 0 ? (vint)((int)HF_MAX_ORDERS) : (vint)(0);
 #endif
-  return (block * (int)HF_COSINES + clamp(cosine, (vint)(0), (vint)((int)HF_COSINES - 1))) *
-             (int)HF_AZIMUTHS +
-         min(azimuth, (vint)((int)HF_AZIMUTHS - 1));
+  return leavingCell(d, block);
 }
 
 // The lanes of `which` take their next ray, or none if none is left; returns those that have one.
@@ -101,10 +92,7 @@ WIDE vmask startRays(Flight* f, constant const HeightfieldRun* run, uint seed, u
   const vmask starting = which & (f->left > 0);
   f->left -= starting ? (vint)(1) : (vint)(0);
   f->id += starting ? (vuint)((uint)(WIDTH * GROUPS)) : (vuint)(0u);
-  vuint random = (f->id * 0x9E3779B1u) ^ seed;
-  random = (random ^ (random >> 16)) * HASH_MIX_2;
-  random = (random ^ (random >> 15)) * HASH_MIX_3;
-  random ^= random >> 16;
+  vuint random = rayRandom(f->id, seed);
   const vint window =
       toInt(toFloat(bitsToInt(f->id)) * ((float)(HF_WINDOWS * HF_WINDOWS) / (float)ray_count));
   const float window_texels = (float)(HF_TILE / HF_WINDOWS);
@@ -237,7 +225,7 @@ WIDE void serve(Flight* f, global const uint* heights, global const uint* cones,
     direction.y = bouncing ? after.y : direction.y;
     direction.z = bouncing ? after.z : direction.z;
   }
-  if (anyLane(ended)) finish(f, outcomes, ray_count, word, ended);
+  if (anyLane(ended)) writeOutcome(outcomes, bitsToInt(f->id), ray_count, word, ended);
   const vmask starting = startRays(f, run, seed, ray_count, ended);
   takeOff(f, cones, direction, run, starting | bouncing);
   f->flying = f->flying & f->alive;

@@ -188,6 +188,29 @@ TEST(Export, PicturesOfLightsCarryTheirRadiance) {
   EXPECT_EQ(light.values[4], 1) << "the first vertex is the picture's lower left corner";
 }
 
+TEST(Export, DiscsSpheresAndTubes) {
+  const TempFolder folder;
+  const std::string xml =
+      exported(folder, {"area_shapes", "--quiet", "--set", "material.floor.normal_map.size_px=8"});
+  // Both sides of the disc, and the ends of the tube.
+  EXPECT_EQ(countOf(xml, "<shape type=\"disk\">"), 4u);
+  EXPECT_EQ(countOf(xml, "<shape type=\"sphere\">"), 1u);
+  EXPECT_EQ(countOf(xml, "<shape type=\"cylinder\">"), 1u);
+  EXPECT_EQ(countOf(xml, "<emitter type=\"area\">"), 6u);
+  EXPECT_NE(xml.find("<point name=\"p1\" x=\"2.3\" y=\"1.3\" z=\"-2.2\"/>"), std::string::npos);
+  // The disc's matrix: two radii, its normal as long, its centre.
+  const std::string start = "<matrix value=\"";
+  std::istringstream numbers(xml.substr(xml.find(start) + start.size()));
+  double m[4][4];
+  for (auto& row : m)
+    for (double& value : row) numbers >> value;
+  const glm::dvec3 u(m[0][0], m[1][0], m[2][0]), v(m[0][1], m[1][1], m[2][1]),
+      n(m[0][2], m[1][2], m[2][2]);
+  EXPECT_LT(glm::distance(glm::cross(u, v), 0.7 * n), 1e-9);
+  EXPECT_LT(glm::distance(n, 0.7 * glm::normalize(glm::dvec3(0.3, -0.1, 1))), 1e-9);
+  EXPECT_EQ(m[0][3], -1.5);
+}
+
 TEST(Export, WhatIsWrongIsOneSentence) {
   const TempFolder folder;
   writeFile(folder / "file", "x");

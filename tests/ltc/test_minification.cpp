@@ -161,7 +161,7 @@ TEST(AreaLightFrame, ScenesDecideTheSwitches) {
   Scene scene = bumpyScene(true);
   KernelConfig config = configFor(scene.materials[0], scene, smallFrame(), 16);
   EXPECT_TRUE(config.ltc && config.ggx && config.normal_map);
-  EXPECT_FALSE(config.light_texture || config.clipless || config.diffuse);
+  EXPECT_FALSE(config.light_texture || config.light_shapes || config.clipless || config.diffuse);
   EXPECT_EQ(config.light_vertices, 4);
   EXPECT_EQ(config.ltc_method, LtcMethod::kExact);
   EXPECT_TRUE(config.planes.has(Plane::kDepth));
@@ -173,6 +173,10 @@ TEST(AreaLightFrame, ScenesDecideTheSwitches) {
   EXPECT_EQ(mixture.lobes, scene.materials[0].normal_map->lobes);
   scene.area_lights[0].texture = paintLightTexture("checker", 16);
   EXPECT_TRUE(configFor(scene.materials[0], scene, smallFrame(), 16).light_texture);
+  scene.area_lights.push_back(scene.area_lights[0]);
+  scene.area_lights[1].shape = LightShape::kSphere;
+  scene.area_lights[1].vertices.clear();
+  EXPECT_TRUE(configFor(scene.materials[0], scene, smallFrame(), 16).light_shapes);
   scene.area_lights.clear();
   config = configFor(scene.materials[0], scene, smallFrame(), 16);
   EXPECT_FALSE(config.ltc || config.light_texture);

@@ -62,6 +62,72 @@ TEST(AreaLights, BadShapes) {
   expectMessage(lightComplaint(""), {"vertices is missing", "rectangle"});
 }
 
+TEST(AreaLights, DiscsSpheresAndTubes) {
+  const TemporaryFolder folder;
+  const auto lightOf = [&](const std::string& keys) {
+    const std::string text =
+        "[mesh]\ngenerator = 'plane'\n[[material]]\nname = 'm'\ntype = 'smooth'\n"
+        "[[view]]\nname = 'v'\n[[area_light]]\n";
+    return load(folder.write("scene.toml", text + keys + "\n")).area_lights.at(0);
+  };
+  AreaLight light = lightOf("shape = 'disc'\ncentre = [1, 2, 3]\nnormal = [0, 0, 2]\nradius = 0.5");
+  EXPECT_EQ(light.shape, LightShape::kDisc);
+  EXPECT_EQ(light.centre, glm::dvec3(1, 2, 3));
+  EXPECT_EQ(areaLightNormal(light), glm::dvec3(0, 0, 1));
+  EXPECT_NEAR(areaLightArea(light), M_PI / 4, 1e-12);
+  light = lightOf("shape = 'sphere'\nradius = 2\ntwo_sided = true");
+  EXPECT_EQ(light.shape, LightShape::kSphere);
+  EXPECT_NEAR(areaLightArea(light), 16 * M_PI, 1e-12);
+  EXPECT_TRUE(light.two_sided);
+  light = lightOf("shape = 'tube'\nends = [[0, 1, 0], [3, 1, 0]]\nradius = 0.5");
+  EXPECT_EQ(light.shape, LightShape::kTube);
+  EXPECT_EQ(light.centre + light.axis, glm::dvec3(3, 1, 0));
+  EXPECT_NEAR(areaLightArea(light), 2 * M_PI * 0.5 * 3 + 2 * M_PI * 0.25, 1e-12);
+  light = lightOf(std::string("shape = 'polygon'\n") + kSquare);
+  EXPECT_EQ(light.shape, LightShape::kPolygon);
+}
+
+TEST(AreaLights, RadiiAreAcrossTheAxis) {
+  for (const glm::dvec3& axis :
+       {glm::dvec3(0, 0, 3), glm::dvec3(1, 0, 0), glm::dvec3(1, -2, 0.5)}) {
+    const auto radii = lightRadii(axis, 2);
+    EXPECT_NEAR(glm::length(radii[0]), 2, 1e-12);
+    EXPECT_NEAR(glm::dot(radii[0], radii[1]), 0, 1e-12);
+    EXPECT_LT(glm::distance(glm::cross(radii[0], radii[1]), 4.0 * glm::normalize(axis)), 1e-12);
+  }
+}
+
+TEST(AreaLights, BadDiscsSpheresAndTubes) {
+  expectMessage(lightComplaint("shape = 'cube'\nradius = 1"),
+                {"area_light.lamp.shape is 'cube', expected polygon, disc, sphere, tube"});
+  expectMessage(lightComplaint("shape = 'disc'"), {"area_light.lamp.radius is missing"});
+  expectMessage(lightComplaint("shape = 'sphere'\nradius = 0"), {"radius is 0"});
+  expectMessage(lightComplaint("shape = 'sphere'\nradius = nan"), {"radius is nan"});
+  expectMessage(lightComplaint("shape = 'disc'\nradius = 1\nnormal = 0"), {"normal is 0"});
+  expectMessage(lightComplaint("shape = 'tube'\nradius = 1\nends = [[0, 0, 0]]"),
+                {"ends has 1 points, expected the 2 ends of the tube"});
+  expectMessage(lightComplaint("shape = 'tube'\nradius = 1\nends = [[1, 0, 0], [1, 0, 0]]"),
+                {"ends are in the same place"});
+  expectMessage(lightComplaint(std::string("shape = 'disc'\nradius = 1\n") + kSquare),
+                {"vertices comes with the shape 'disc', expected one way or the other"});
+  expectMessage(lightComplaint("shape = 'disc'\nradius = 1\ntexture = 'panes'"),
+                {"texture comes with the shape 'disc'", "parallelogram"});
+  // A sphere has no ends, a polygon no radius.
+  expectMessage(lightComplaint("shape = 'sphere'\nradius = 1\nends = [[0, 0, 0], [1, 0, 0]]"),
+                {"ends"});
+  expectMessage(lightComplaint(std::string(kSquare) + "\nradius = 1"), {"radius"});
+}
+
+TEST(AreaLights, GlintsWantPolygons) {
+  const TemporaryFolder folder;
+  const std::string file =
+      folder.write("scene.toml",
+                   "[mesh]\ngenerator = 'plane'\n[[material]]\nname = 'snow'\ntype = 'glints'\n"
+                   "[[view]]\nname = 'v'\n[[area_light]]\nname = 'lamp'\nshape = 'sphere'\n"
+                   "radius = 1\n");
+  expectMessage(errorOf([&] { load(file); }), {"'lamp'", "'snow'", "polygons only"});
+}
+
 TEST(AreaLights, StarsAreNotConvex) {
   AreaLight star;
   for (int i = 0; i < 5; ++i)

@@ -24,7 +24,7 @@ constexpr const char* kRoughnessKnob = "roughness";
 constexpr double kRoughness[] = {0.03, 0.1, 0.3, 0.6};
 
 std::vector<std::string> tao21Scenes() {
-  return {"area_cloth", "area_knot", "area_glass", kTao21SummaryScene};
+  return {"area_cloth", "area_knot", "area_glass", "area_shapes", kTao21SummaryScene};
 }
 
 std::vector<std::string> tao21Views() {

@@ -24,6 +24,9 @@ constexpr const char* kCurveView = "front";
 constexpr const char *kLightsKnob = "lights", *kVerticesKnob = "vertices";
 constexpr int kLightCounts[] = {1, 2, 4, 8};
 constexpr int kVertexCounts[] = {3, 4, 5, 6, 7, 8};
+constexpr const char* kShapeKnob = "shape";
+constexpr std::pair<const char*, LightShape> kShapes[] = {
+    {"disc", LightShape::kDisc}, {"sphere", LightShape::kSphere}, {"tube", LightShape::kTube}};
 constexpr int kMostMonteCarloSpp = 1024;
 // Cells of the table that is fitted for the time, per side: the time of 64 x 64 follows from it.
 constexpr int kTimedTableSize = LTC_SIZE_MIN;
@@ -95,6 +98,23 @@ AreaLight regularLight(const AreaLight& lamp, int corners) {
   for (int i = 0; i < corners; ++i) {
     const double angle = 2 * std::numbers::pi * i / corners;
     light.vertices.push_back(centre + std::cos(angle) * right + std::sin(angle) * up);
+  }
+  return light;
+}
+
+// A disc or a sphere of the lamp's area, as seen from before it, or a tube along its middle.
+AreaLight roundLight(const AreaLight& lamp, LightShape shape) {
+  constexpr double kTubeRadius = 0.1;
+  AreaLight light = lamp;
+  light.vertices.clear();
+  light.shape = shape;
+  light.centre = 0.5 * (lamp.vertices[0] + lamp.vertices[2]);
+  light.axis = areaLightNormal(lamp);
+  light.radius = std::sqrt(areaLightArea(lamp) / std::numbers::pi);
+  if (shape == LightShape::kTube) {
+    light.axis = lamp.vertices[1] - lamp.vertices[0];
+    light.centre -= 0.5 * light.axis;
+    light.radius = kTubeRadius;
   }
   return light;
 }
@@ -178,6 +198,8 @@ std::vector<std::string> tao21CurveCases() {
   };
   for (const int count : kLightCounts) add(kLightsKnob, count);
   for (const int count : kVertexCounts) add(kVerticesKnob, count);
+  for (const auto& [shape, kind] : kShapes)
+    cases.push_back(CaseName{{kTao21SummaryScene}, {{kShapeKnob, std::string(shape)}}}.text());
   return cases;
 }
 
@@ -187,6 +209,10 @@ std::vector<Record> measureTao21Curve(BenchRun& run, const std::string& case_nam
   const AreaLight lamp = scene.area_lights.front();
   if (name.value(kLightsKnob))
     scene.area_lights.assign(static_cast<std::size_t>(name.number(kLightsKnob)), lamp);
+  else if (const auto shape = name.value(kShapeKnob))
+    scene.area_lights = {roundLight(lamp, std::ranges::find(kShapes, *shape, [](const auto& s) {
+                                            return std::string(s.first);
+                                          })->second)};
   else
     scene.area_lights = {regularLight(lamp, static_cast<int>(name.number(kVerticesKnob)))};
   const auto renderer = preparedFrame(run, scene, scene.view(kCurveView), run.shading());

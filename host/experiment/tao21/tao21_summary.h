@@ -11,7 +11,7 @@ namespace glintmark {
 const std::vector<std::string>& tao21SummaryMetrics();
 std::vector<Record> measureTao21Summary(BenchRun& run);
 
-/// Cases "area_plane/lights=N" and "area_plane/vertices=N": shading_ms.
+/// Cases "area_plane/lights=N", "area_plane/vertices=N" and "area_plane/shape=S": shading_ms.
 std::vector<std::string> tao21CurveCases();
 std::vector<Record> measureTao21Curve(BenchRun& run, const std::string& case_name);
 

@@ -36,7 +36,8 @@ const TableSpec& tao21Spec() {
             "ms",
             "shading time",
             "kernel events of the frame, the methods of a view in turn; the paper has 16 for both",
-            "`scene/view/method`, `area_plane/lights=N`, `area_plane/vertices=N`",
+            "`scene/view/method`, `area_plane/lights=N`, `area_plane/vertices=N`, "
+            "`area_plane/shape=S`",
             {"rel_mse", "colour_error", "bias", "truth_stderr"}},
            {"rel_mse", "1", "relMSE",
             "against the ground truth: relative mean squared error, distance of display colours, "

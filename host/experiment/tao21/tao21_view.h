@@ -24,8 +24,8 @@ inline constexpr int kTruthWidth_px = 320;
 /// The metrics of every case of a view.
 const std::vector<std::string>& tao21Metrics();
 
-/// Records by method ("original", "tao21", "exact"), and a strip of their pictures beside the
-/// truth.
+/// Records by method ("original", "tao21", "exact", "mixture"), and a strip of their pictures
+/// beside the truth.
 struct Tao21View {
   std::map<std::string, std::vector<Record>> records;
   Image picture;

@@ -15,16 +15,38 @@ namespace {
 
 constexpr int kLargestTexture_px = 512;  // finer ones start below their first level
 
-AreaLightParams prepareAreaLight(const AreaLight& light, const glm::dvec3& eye) {
-  AreaLightParams params{};
+// The places and vectors of a disc, sphere or tube; see kernels/types.h.
+void prepareRoundLight(const AreaLight& light, const glm::dvec3& eye, AreaLightParams& params) {
+  const glm::dvec3 centre = light.centre - eye;
+  const auto radii = lightRadii(light.axis, light.radius);
+  params.vertices[0] = toFloat4(centre);
+  params.vertices[1] = toFloat4(centre + light.axis);
+  params.vertices[2] = toFloat4(radii[0]);
+  params.vertices[3] = toFloat4(radii[1]);
+  const glm::dvec3 normal = areaLightNormal(light);
+  const bool tube = light.shape == LightShape::kTube;
+  params.plane = toFloat4(normal, tube ? glm::length(light.axis) : glm::dot(normal, centre));
+  params.radiance.w = static_cast<float>(light.radius);
+  params.shape = tube ? LIGHT_TUBE : light.shape == LightShape::kSphere ? LIGHT_SPHERE : LIGHT_DISC;
+}
+
+void preparePolygon(const AreaLight& light, const glm::dvec3& eye, AreaLightParams& params) {
   const std::size_t count = light.vertices.size();
   for (std::size_t i = 0; i < GM_MAX_LIGHT_VERTICES; ++i)
     params.vertices[i] = toFloat4(light.vertices[std::min(i, count - 1)] - eye);
   const glm::dvec3 normal = areaLightNormal(light);
   params.plane = toFloat4(normal, glm::dot(normal, light.vertices[0] - eye));
+  params.shape = static_cast<uint>(count);
+}
+
+AreaLightParams prepareAreaLight(const AreaLight& light, const glm::dvec3& eye) {
+  AreaLightParams params{};
   params.radiance = toFloat4(light.radiance);
+  if (light.shape == LightShape::kPolygon)
+    preparePolygon(light, eye, params);
+  else
+    prepareRoundLight(light, eye, params);
   params.back = light.two_sided ? -1.0f : 0.0f;
-  params.vertex_count = static_cast<uint>(count);
   params.area = static_cast<float>(areaLightArea(light));
   params.texture = NO_LIGHT_TEXTURE;
   return params;

@@ -14,6 +14,7 @@ void chooseLtc(const ProgramCall& call, KernelConfig& config) {
   std::size_t most_vertices = 3;
   for (const AreaLight& light : lights) {
     most_vertices = std::max(most_vertices, light.vertices.size());
+    config.light_shapes = config.light_shapes || light.shape != LightShape::kPolygon;
     config.light_texture = config.light_texture || !light.texture.pixels.empty();
   }
   config.light_vertices = static_cast<int>(most_vertices);
