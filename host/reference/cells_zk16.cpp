@@ -60,7 +60,7 @@ void visitGridZk16(const GridFootprint& grid, int ka, GridVisit& visit) {
       std::int64_t v = static_cast<std::int64_t>(below) + side;
       if (f.swapped) std::swap(u, v);
       const double share = side == 1 ? across - below : 1.0 - (across - below);
-      visit.cells.push_back({wrapped(grid.base_u + u), wrapped(grid.base_v + v), along * share});
+      visit.cells.push_back({grid.base_u + u, grid.base_v + v, along * share});
     }
   }
 }
