@@ -34,9 +34,9 @@ LongFirst longFirst(const GridFootprint& grid) {
 void visitGridZk16(const GridFootprint& grid, int ka, GridVisit& visit) {
   const LongFirst f = longFirst(grid);
   const double r = std::max(0.5 * (f.extent - 1.0), 0.0);
-  // Cell i has its centre at i + 1/2; those strictly inside (c - r - 1, c + r + 1) take part.
+  // Cell i has its centre at i + 1/2; those in (c - r - 1, c + r + 1] take part.
   const double first = std::floor(f.centre.x - r - 1.5) + 1.0;
-  const double last = std::ceil(f.centre.x + r + 0.5) - 1.0;
+  const double last = std::floor(f.centre.x + r + 0.5);
   const int n = static_cast<int>(last - first) + 1;
   const int most = std::max(ka, 2);
   visit.limited = n > most;

@@ -174,7 +174,7 @@ Finding grooveLength(const CheckContext& context) {
 // Where 32 bits of an index come back, 4096 uv further, cells are others; without DEEP_UV they are
 // the same.
 Finding noRecurrence(const CheckContext& context) {
-  DrawCase c = {"", GlintMethod::kZk16, {.3f, .3f}, {.03f, .03f}, 0x1p44f, 0, false, 16, kDeep};
+  DrawCase c = {"", GlintMethod::kZk16, {.3f, .3f}, {.2f, .2f}, 0x1p46f, 0, false, 16, kDeep};
   c.footprints.most_aspect = 1.001;
   const auto ratios = [&](double further_uv, bool deep) {
     HandMadeFrame frame = drawFrame(c);

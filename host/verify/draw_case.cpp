@@ -10,7 +10,7 @@ constexpr double kShallow_uv = 2048;
 void moveToBorders(std::vector<HandMadePixel>& pixels) {
   for (std::size_t i = 0; i < pixels.size(); i += 4) {
     const int k = static_cast<int>(i / 4 % 128) - 64;
-    const double within = 0x1p-20 * (static_cast<double>(i % 61) - 30);
+    const double within = 0x1p-20 * (static_cast<double>(i % 61) - 29.63);
     pixels[i].footprint.u = fixedCoordinate(kShallow_uv * k - 1237 + within);
     pixels[i].footprint.v = fixedCoordinate(kShallow_uv * (k / 2) - 2011 - within);
   }
