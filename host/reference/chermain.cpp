@@ -16,7 +16,7 @@
 namespace glintmark::reference {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kHalfTurn = std::numbers::pi;  // [rad]
 constexpr std::uint32_t kDistributions = 192;
 constexpr int kLevels = 16, kNodes = 64;
 constexpr double kReach = 2 * std::numbers::sqrt2;  // four standard deviations
@@ -121,7 +121,7 @@ CellDraw drawnByAuthors(std::int64_t u, std::int64_t v, int level, double log2_c
       static_cast<std::uint64_t>((u + 1549 * v) * (std::int64_t{1} << (level - kAuthorsFinest))));
   const double z =
       std::numbers::sqrt2 * boost::math::erf_inv(2 * (authorsHash(seed * 2171u) + 0x1p-24) - 1);
-  return {2 * kPi * authorsHash(seed),
+  return {2 * kHalfTurn * authorsHash(seed),
           static_cast<std::uint32_t>(authorsHash(seed * 16807u) * kDistributions),
           static_cast<std::uint32_t>(authorsHash(seed * 48271u) * kDistributions),
           std::floor(log2_count / (one_axis ? 1 : 2) + 2 * z + 0.5)};
@@ -146,7 +146,7 @@ CellDraw drawnEvenly(std::int64_t u, std::int64_t v, double log2_count, const Sl
   const double floor = std::floor(level);
   const double odds =
       (1 - std::pow(images, floor - level)) / (1 - 1 / images);  // of the next level
-  return {2 * kPi * (a >> 16) / 65536, (a & 0xFFFFu) * kDistributions >> 16,
+  return {2 * kHalfTurn * (a >> 16) / 65536, (a & 0xFFFFu) * kDistributions >> 16,
           (b & 0xFFFFu) * kDistributions >> 16, floor + ((b >> 16) / 65536.0 < odds ? 1 : 0)};
 }
 
@@ -162,7 +162,7 @@ double cellRatio(const CellDraw& draw, const SlopeLookup& lookup) {
   double density = chermainMarginal(level, draw.y, lookup.as_published, turned.y);
   if (!lookup.one_axis) density *= chermainMarginal(level, draw.x, lookup.as_published, turned.x);
   const double smooth = std::exp(-std::min(glm::dot(h, h), kMostSlopeSquared)) /
-                        (lookup.one_axis ? std::sqrt(kPi) : kPi);
+                        (lookup.one_axis ? std::sqrt(kHalfTurn) : kHalfTurn);
   return density / smooth;
 }
 

@@ -11,7 +11,7 @@ namespace {
 constexpr int kConeDirections = 600;
 constexpr int kNodes = 192;        // a side, of slopes from -kMostSlope to kMostSlope
 constexpr double kDeviations = 4;  // of slopes that are looked up
-constexpr double kGolden = 0.6180339887498949;
+constexpr double kSpiralStep = 0.6180339887498949;
 
 // Chances of one light over the plane of slopes.
 struct ChanceMap {
@@ -45,7 +45,7 @@ void addLobe(const SlopeNodes& nodes, const glm::dvec2& slope, double weight, do
 // A direction of the cone, by a spiral that fills it evenly.
 glm::dvec3 coneDirection(const Cone& cone, int i) {
   const double z = 1 - (i + 0.5) / kConeDirections * (1 - std::cos(cone.half_angle_rad));
-  const double turn = 2 * std::numbers::pi * std::fmod(i * kGolden, 1.0);
+  const double turn = 2 * std::numbers::pi * std::fmod(i * kSpiralStep, 1.0);
   const glm::dvec3 side = glm::normalize(glm::cross(
       std::abs(cone.axis.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0), cone.axis));
   const glm::dvec3 other = glm::cross(cone.axis, side);

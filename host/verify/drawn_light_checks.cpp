@@ -218,7 +218,7 @@ std::vector<Check> drawnLightChecks() {
   std::vector<Check> checks = {
       {"drawn/mean", "mean over the smooth lobe - 1", skyMean},
       {"drawn/few", "change where there are no more lights", skyOfFew},
-      {"drawn/ranks", "change as two lights change ranks, of the deviation", changeOfRanks},
+      {"drawn/ranks", "change where two change ranks", changeOfRanks},
       {"drawn/variance", "variance over that of all lights drawn - 1", halfDrawn},
       {"drawn/same_bits", "pixels that differ from one lane's", skyBits}};
   for (const auto& [cones, drawn] :
