@@ -43,6 +43,9 @@ WIDE vfloat3 shadeOwners(Shading shading, vint owner, size_t entry) {
 // material, map and scatter are arrays over all materials.
 kernel void shade(global const uint* planes, constant const FrameParams* frame,
                   constant const MaterialParams* material, constant const LightParams* lights,
+#if GLINT && GLINT_TABLE
+                  global const float* glint_table,
+#endif
 #if NORMAL_MAP
                   constant const MipTexture* map, global const float4* map_texels,
 #endif
@@ -77,6 +80,9 @@ kernel void shade(global const uint* planes, constant const FrameParams* frame,
   shading.frame = frame;
   shading.material = material;
   shading.lights = lights;
+#if GLINT && GLINT_TABLE
+  shading.glint_table = glint_table;
+#endif
 #if NORMAL_MAP
   shading.map = map;
   shading.map_texels = map_texels;

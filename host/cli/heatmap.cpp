@@ -20,6 +20,7 @@ struct HeatmapCommand {
   std::string scene = "screen_plane", view, size;
   std::string picture, exr, csv;
   std::string scale = "fixed", method = defaultMethod();
+  int drawn_lights = 0;
   bool sweep_angle = false;
 };
 
@@ -87,7 +88,8 @@ int runHeatmap(const CommonOptions& common, const HeatmapCommand& command) {
   const ShadingOptions shading{.width_px = size.width_px,
                                .height_px = size.height_px,
                                .lanes = common.lanes,
-                               .method = parseMethod(command.method)};
+                               .method = parseMethod(command.method),
+                               .drawn_lights = checkedDrawnLights(command.drawn_lights)};
   if (!command.sweep_angle) return runView(common, command, shading);
   return runAngleSweep(common, {.scene = command.scene,
                                 .view = command.view.empty() ? "sweep" : command.view,
@@ -114,6 +116,10 @@ void addHeatmapCommand(Command app, CommandLine& line) {
       .typeName("WxH");
   command.option("--scale", options->scale, "fixed (8 to 64 cells) or auto (default: fixed)");
   command.option("--method", options->method, methodHelp());
+  command
+      .option("--drawn-lights", options->drawn_lights,
+              "Draws glints under so many lights of a pixel, all others as one (default: 0, all)")
+      .typeName("N");
   command.flag("--sweep-angle", options->sweep_angle,
                "A view that orbits a plane, from 90 to 1 degrees: picture strip and CSV");
   command.option("--csv", options->csv, "Figures of the sweep, one line per angle")

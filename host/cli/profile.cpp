@@ -28,6 +28,7 @@ struct ProfileOptions {
   std::string size = "1920x1080", method = defaultMethod();
   std::string normal_method = choiceName(ShadingOptions{}.normal_method);
   std::string ltc_method = choiceName(ShadingOptions{}.ltc_method);
+  int drawn_lights = 0;
   double seconds = 10;
 };
 
@@ -61,7 +62,8 @@ int runProfile(const CommandLine& line, const ProfileOptions& options) {
       .lanes = line.common.lanes,
       .method = parseMethod(options.method),
       .normal_method = parseChoice<NormalMethod>(options.normal_method, "normal method"),
-      .ltc_method = parseChoice<LtcMethod>(options.ltc_method, "area light method")};
+      .ltc_method = parseChoice<LtcMethod>(options.ltc_method, "area light method"),
+      .drawn_lights = checkedDrawnLights(options.drawn_lights)};
   if (!options.folder.empty()) requireWritableFolder(options.folder);
   const Scene scene = openScene(line.common, options.scene);
   const View& view = chosenView(scene, options.view);
@@ -102,6 +104,10 @@ void addProfileCommand(Command app, CommandLine& line) {
   command.option("--view", options->view, "View of the scene (default: its first)");
   command.option("--size", options->size, "Image size (default: 1920x1080)").typeName("WxH");
   command.option("--method", options->method, methodHelp());
+  command
+      .option("--drawn-lights", options->drawn_lights,
+              "Draws glints under so many lights of a pixel, all others as one (default: 0, all)")
+      .typeName("N");
   command.option("--normal-method", options->normal_method,
                  fmt::format("{} (default: {})", listOf(namesOf<NormalMethod>(), "or"),
                              options->normal_method));

@@ -42,6 +42,7 @@ struct RenderOptions {
   std::string size = "1920x1080", method = choiceName(kRenderMethod);
   std::string normal_method = choiceName(ShadingOptions{}.normal_method);
   std::string ltc_method = choiceName(ShadingOptions{}.ltc_method);
+  int drawn_lights = 0;
   int truth_spp = 0;  // 0: a frame
   int frames = 0;     // of a path; 0: one picture, without a number
   std::string path;
@@ -252,6 +253,7 @@ int runRender(const CommandLine& line, const RenderOptions& options) {
       .method = parseMethod(options.method),
       .normal_method = parseChoice<NormalMethod>(options.normal_method, "normal method"),
       .ltc_method = parseChoice<LtcMethod>(options.ltc_method, "area light method"),
+      .drawn_lights = checkedDrawnLights(options.drawn_lights),
       .glints = !options.no_glints};
   if (options.zoom != 0) return runZoom(common, options, shading);
   const Scene scene = openScene(common, options.scene);
@@ -304,6 +306,10 @@ void addRenderCommand(Command app, CommandLine& line) {
   command.option("--trace", options->trace, "Chrome/Perfetto trace of host and device")
       .typeName("FILE");
   command.option("--method", options->method, methodHelp(choiceName(kRenderMethod)));
+  command
+      .option("--drawn-lights", options->drawn_lights,
+              "Draws glints under so many lights of a pixel, all others as one (default: 0, all)")
+      .typeName("N");
   command.option("--normal-method", options->normal_method,
                  fmt::format("{} (default: {})", listOf(namesOf<NormalMethod>(), "or"),
                              options->normal_method));

@@ -26,6 +26,13 @@ void turnKnob(ShadingOptions& options, std::string_view macro, int value) {
   throw Error(fmt::format("{} is a switch, but no knob", macro));
 }
 
+int checkedDrawnLights(int count) {
+  const SwitchValues& values = switchNamed("DRAWN_LIGHTS").values;
+  if (!values.allow(count))
+    throw Error(fmt::format("--drawn-lights {} is not {} to {}", count, values.least, values.most));
+  return count;
+}
+
 GlintMethod parseMethod(const std::string& name) {
   return parseChoice<GlintMethod>(name, "method");
 }

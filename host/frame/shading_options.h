@@ -44,6 +44,9 @@ void setKnobs(const ShadingOptions& options, bool KernelConfig::*effect, KernelC
 /// it may not have.
 void turnKnob(ShadingOptions& options, std::string_view macro, int value);
 
+/// `count` if DRAWN_LIGHTS may be it; throws Error saying what it may be.
+int checkedDrawnLights(int count);
+
 /// "zk16", say; throws Error listing all.
 GlintMethod parseMethod(const std::string& name);
 /// The paper's by default, and what a help text says of all: "zk16 or exact (default: zk16)".

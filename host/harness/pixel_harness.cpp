@@ -8,6 +8,7 @@
 #include "host/core/float4.h"
 #include "host/core/glint_grids.h"
 #include "host/core/planes.h"
+#include "host/frame/effect/glint_table.h"
 #include "host/frame/effect/light_taps.h"
 #include "host/frame/effect/lights.h"
 #include "host/frame/effects.h"
@@ -84,6 +85,8 @@ ShadedPixels shadePixels(KernelBench& bench, const HandMadeFrame& frame, KernelC
                             .frame = probeData(bench, std::vector{paramsOf(frame, stride)}),
                             .material = probeData(bench, std::vector{materialOf(frame, config)}),
                             .lights = probeData(bench, prepareLights(frame.lights))});
+  if (const auto table = glintTable(device, config, BufferPurpose::kProbe))
+    arguments.add("glint_table", *table);
   if (frame.scatter) arguments.add("scatter", probeData(bench, std::vector{*frame.scatter}));
   if (config.multiscatter != Multiscatter::kOff) {
     const PreparedTaps taps = prepareTaps(frame.lights);
@@ -158,6 +161,10 @@ reference::GlintRule referenceRule(GlintMethod method) {
       return reference::GlintRule::kKemppinen;
     case GlintMethod::kPublishedZk16:
       return reference::GlintRule::kPublishedZk16;
+    case GlintMethod::kChermain:
+      return reference::GlintRule::kChermain;
+    case GlintMethod::kChermainCorrected:
+      return reference::GlintRule::kChermainCorrected;
     default:
       return reference::GlintRule::kZk16;
   }

@@ -30,18 +30,20 @@ std::vector<std::vector<glm::vec3>> methodRatios(Device& device, ProgramCache& c
                                                  const KernelConfig& config,
                                                  std::span<const PixelLattice> lattices,
                                                  const MaterialParams& material,
-                                                 const glm::dvec2& half_slope) {
+                                                 const glm::dvec2& half_slope,
+                                                 const std::optional<Buffer>& table) {
   std::size_t stride = 0;
   for (const PixelLattice& lattice : lattices) stride += pixelStride(lattice);
   Buffer ratios(device, 3 * stride * 4, BufferPurpose::kMicrodetails, "ratios of a glint method");
-  const KernelArg arguments[] = {upload(device, allWords(lattices, stride),
-                                        BufferPurpose::kMicrodetails, "pixels of lattices"),
-                                 upload(device, std::vector{withGlintGrids(material)},
-                                        BufferPurpose::kMicrodetails, "a material"),
-                                 ratios,
-                                 static_cast<float>(half_slope.x),
-                                 static_cast<float>(half_slope.y),
-                                 static_cast<std::uint32_t>(stride)};
+  std::vector<KernelArg> arguments = {upload(device, allWords(lattices, stride),
+                                             BufferPurpose::kMicrodetails, "pixels of lattices"),
+                                      upload(device, std::vector{withGlintGrids(material)},
+                                             BufferPurpose::kMicrodetails, "a material"),
+                                      ratios,
+                                      static_cast<float>(half_slope.x),
+                                      static_cast<float>(half_slope.y),
+                                      static_cast<std::uint32_t>(stride)};
+  if (table) arguments.push_back(*table);
   cache.get("microdetail/method_ratios.cl", config)
       .kernel("methodRatios")
       .launch(arguments, stride / static_cast<std::size_t>(config.width), kRatioGroup);

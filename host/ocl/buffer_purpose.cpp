@@ -36,6 +36,8 @@ std::string_view purposeName(BufferPurpose purpose) {
       return "the lights' pictures";
     case BufferPurpose::kCosineTable:
       return "a table of linearly transformed cosines";
+    case BufferPurpose::kSlopeDictionary:
+      return "the dictionary of slopes";
     case BufferPurpose::kSimulation:
       return "the simulation";
     case BufferPurpose::kMixtureFit:

@@ -21,6 +21,7 @@ enum class BufferPurpose {
   kLightPictureLayouts,
   kLightPictures,
   kCosineTable,
+  kSlopeDictionary,
   kSimulation,
   kMixtureFit,
   kMicrodetails,

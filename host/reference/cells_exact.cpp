@@ -98,7 +98,7 @@ void visitGridExact(const GridFootprint& grid, GridVisit& visit) {
       if (area <= kLeastArea) continue;
       const auto u = static_cast<std::int64_t>(along == 0 ? column_index : i);
       const auto v = static_cast<std::int64_t>(along == 0 ? i : column_index);
-      visit.cells.push_back({wrapped(grid.base_u + u), wrapped(grid.base_v + v), area});
+      visit.cells.push_back({grid.base_u + u, grid.base_v + v, area});
     }
   }
 }

@@ -34,9 +34,9 @@ LongFirst longFirst(const GridFootprint& grid) {
 void visitGridZk16(const GridFootprint& grid, int ka, GridVisit& visit) {
   const LongFirst f = longFirst(grid);
   const double r = std::max(0.5 * (f.extent - 1.0), 0.0);
-  // Cell i has its centre at i + 1/2; those strictly inside (c - r - 1, c + r + 1) take part.
+  // Cell i has its centre at i + 1/2; those in (c - r - 1, c + r + 1] take part.
   const double first = std::floor(f.centre.x - r - 1.5) + 1.0;
-  const double last = std::ceil(f.centre.x + r + 0.5) - 1.0;
+  const double last = std::floor(f.centre.x + r + 0.5);
   const int n = static_cast<int>(last - first) + 1;
   const int most = std::max(ka, 2);
   visit.limited = n > most;
@@ -60,7 +60,7 @@ void visitGridZk16(const GridFootprint& grid, int ka, GridVisit& visit) {
       std::int64_t v = static_cast<std::int64_t>(below) + side;
       if (f.swapped) std::swap(u, v);
       const double share = side == 1 ? across - below : 1.0 - (across - below);
-      visit.cells.push_back({wrapped(grid.base_u + u), wrapped(grid.base_v + v), along * share});
+      visit.cells.push_back({grid.base_u + u, grid.base_v + v, along * share});
     }
   }
 }

@@ -30,7 +30,7 @@ GridRules gridRules(const glm::dvec2& alpha_g, const glm::dvec2& alpha_l, double
 
 /// One visited cell of one grid.
 struct Cell {
-  std::int32_t u = 0, v = 0;  // indices modulo 2^32
+  std::int64_t u = 0, v = 0;
   double weight = 0;
 };
 

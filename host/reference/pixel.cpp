@@ -33,6 +33,12 @@ struct LightDraw {
   const Glints& glints;
   glm::dvec2 stretch;
   bool exact;
+  bool deep_uv;
+
+  std::uint32_t seedOf(const Cell& cell, std::uint32_t salt = 0) const {
+    return deep_uv ? cellSeed(cell.u, cell.v, salt)
+                   : cellSeed(wrapped(cell.u), wrapped(cell.v), salt);
+  }
 };
 
 double weightOf(const GridVisit& grid) {
@@ -62,7 +68,7 @@ double gridRatio(const GridVisit& grid, const LightDraw& draw, double& rounding)
   double sum = 0;
   for (const Cell& cell : grid.cells) {
     if (cell.weight <= 0) continue;
-    const std::uint32_t d = pairSeed(cellSeed(cell.u, cell.v), draw.half);
+    const std::uint32_t d = pairSeed(draw.seedOf(cell), draw.half);
     const auto count = std::max<std::int64_t>(wholeNumber(d, mean * sizeFactor(d, v)), 1);
     const double one = cell.weight / weight / (static_cast<double>(count) * p);
     sum += one * static_cast<double>(drawn(d, count, draw));
@@ -87,7 +93,7 @@ double distributedRatio(std::span<const GridVisit> grids, double microdetails,
     const double weight = weightOf(grid);
     for (const Cell& cell : grid.cells) {
       const auto salt = static_cast<std::uint32_t>(grid.level) * 0x632BE5ABu;
-      const std::uint32_t d = pairSeed(cellSeed(cell.u, cell.v, salt), draw.half);
+      const std::uint32_t d = pairSeed(draw.seedOf(cell, salt), draw.half);
       Share share = {d, sizeFactor(d, v), 0, 0};
       share.expected = grid.mip_weight * cell.weight / weight * microdetails * share.factor;
       share.count = wholeNumber(d, share.expected);
@@ -135,6 +141,8 @@ bool isRival(GlintRule method) {
 RivalRatio rivalRatio(GlintRule method, const PixelFootprint& footprint, const Glints& glints,
                       const RivalLight& light) {
   if (method == GlintRule::kKemppinen) return kemppinen(footprint, glints, light);
+  if (method == GlintRule::kChermain || method == GlintRule::kChermainCorrected)
+    return chermain(footprint, glints, light, method == GlintRule::kChermain);
   if (method == GlintRule::kPublishedZk16) return publishedZk16(footprint, glints, light);
   return deliotBelcour(footprint, glints, light, method == GlintRule::kDeliotBelcour);
 }
@@ -178,7 +186,7 @@ PixelResult evaluatePixel(const SurfacePixel& pixel, const Glints& glints,
       continue;
     }
     const HalfVectorIndex half = halfVectorIndex(glm::normalize(i + o), glints);
-    const LightDraw draw = {p, half, glints, stretch, exact};
+    const LightDraw draw = {p, half, glints, stretch, exact, options.deep_uv};
     const bool distributed = options.method == GlintRule::kDistributed;
     if (distributed) {
       const double microdetails = sharedMicrodetails(pixel.footprint, grids, glints, stretch);

@@ -40,12 +40,15 @@ enum class GlintRule {
   kDeliotBelcour,
   kDeliotCorrected,
   kKemppinen,
-  kPublishedZk16
+  kPublishedZk16,
+  kChermain,
+  kChermainCorrected
 };
 
 struct GlintMethodOptions {
   GlintRule method = GlintRule::kZk16;
   int ka = 16;
+  bool deep_uv = false;  // false: cells recur after 2^32 along an axis
 };
 
 struct PixelResult {

@@ -30,6 +30,12 @@ RivalRatio deliotBelcour(const PixelFootprint& footprint, const Glints& glints,
 RivalRatio kemppinen(const PixelFootprint& footprint, const Glints& glints,
                      const RivalLight& light);
 
+/// [CSDD20]; `as_published` with what the authors' code adds, and without what it leaves out.
+RivalRatio chermain(const PixelFootprint& footprint, const Glints& glints, const RivalLight& light,
+                    bool as_published);
+/// A distribution of its dictionary: the density of slopes over alpha along one axis.
+double chermainMarginal(int level, std::uint32_t which, bool as_published, double slope);
+
 /// The shader that [ZK16]'s authors published, with its defects but for its fireflies: sums of
 /// floats make those, and these are doubles.
 /// Its hash of a number, [0, 1).

@@ -16,20 +16,32 @@ std::int32_t cellOf(std::int32_t half, std::uint32_t shift) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(half) + shift) >> 16;
 }
 
+// The odd part of a number, and how many 2^32 it is from the nearest of its lower 32 bits.
+struct OddPart {
+  std::uint32_t low = 0;
+  std::uint32_t beyond = 0;
+};
+OddPart oddPart(std::int64_t i) {
+  while (i != 0 && i % 2 == 0) i /= 2;
+  const auto low = static_cast<std::uint32_t>(static_cast<std::uint64_t>(i));
+  const std::int64_t near = static_cast<std::int32_t>(low);
+  return {low, static_cast<std::uint32_t>(static_cast<std::uint64_t>((i - near) / 0x100000000))};
+}
+
 }  // namespace
 
 std::int32_t coherentIndex(std::int32_t i) {
   return i == 0 ? 0 : i >> std::countr_zero(static_cast<std::uint32_t>(i));
 }
 
-std::uint32_t cellSeed(std::int32_t cell_u, std::int32_t cell_v, std::uint32_t salt) {
-  const auto cu = static_cast<std::uint32_t>(coherentIndex(cell_u));
-  const auto cv = static_cast<std::uint32_t>(coherentIndex(cell_v));
-  std::uint32_t s = cu * 0x9E3779B1u + cv * 0x85EBCA77u + salt;
+std::uint32_t cellSeed(std::int64_t cell_u, std::int64_t cell_v, std::uint32_t salt) {
+  const OddPart u = oddPart(cell_u), v = oddPart(cell_v);
+  std::uint32_t s = u.low * 0x9E3779B1u + v.low * 0x85EBCA77u + salt;
   s ^= s >> 16;
   s *= 0x7FEB352Du;
   s ^= s >> 15;
-  return s;
+  const std::uint32_t far = (u.beyond * 0x9E3779B1u + v.beyond * 0x85EBCA77u) * 0x846CA68Bu;
+  return s ^ far ^ (far >> 15);
 }
 
 std::uint32_t pairSeed(std::uint32_t cell_seed, HalfVectorIndex half) {

@@ -7,8 +7,8 @@ namespace glintmark::reference {
 /// Step 3: i >> trailingZeros(i), 0 for 0; the same for i and 2 i. [ZK16] Sect. 4.1
 std::int32_t coherentIndex(std::int32_t i);
 
-/// Step 4: seed of a texture cell, from plain (not yet coherent) indices.
-std::uint32_t cellSeed(std::int32_t cell_u, std::int32_t cell_v, std::uint32_t salt = 0);
+/// Step 4: seed of a texture cell, from plain (not yet coherent) indices, of more than 32 bits too.
+std::uint32_t cellSeed(std::int64_t cell_u, std::int64_t cell_v, std::uint32_t salt = 0);
 
 /// Half vector in cells of its own grid, 16.16 fixed point.
 struct HalfVectorIndex {

@@ -12,7 +12,8 @@ std::vector<Check> trigChecks();          // sine, cosine and angle
 std::vector<Check> seedChecks();          // hash.clh
 std::vector<Check> binomialChecks();      // binomial.clh
 std::vector<Check> pixelChecks();         // frames and views of pixels
-std::vector<Check> glintChecks();         // cells and draws of whole pixels
+std::vector<Check> glintChecks();         // draws of whole pixels
+std::vector<Check> cellChecks();          // their cells
 std::vector<Check> colourChecks();        // colours of draws
 std::vector<Check> couplingChecks();      // a diffuse layer under a specular lobe
 std::vector<Check> shadingChecks();       // smooth pixels of coloured materials
@@ -20,6 +21,7 @@ std::vector<Check> energyChecks();        // glints on average
 std::vector<Check> zoomChecks();          // glints near, far, and continuous
 std::vector<Check> rivalChecks();         // other authors' glints
 std::vector<Check> coneChecks();          // lights of any width
+std::vector<Check> drawnLightChecks();    // glints under many of them
 std::vector<Check> mappedConeChecks();    // spread normals under them
 std::vector<Check> hardPixelChecks();     // footprints, materials and lights at their limits
 std::vector<Check> polygonChecks();       // area lights over a cosine

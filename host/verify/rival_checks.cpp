@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 #include <utility>
 
@@ -107,6 +108,50 @@ Finding particleMean(const CheckContext& context) {
       finding.add(std::abs(rivalMean(rivalRatios(context, GlintMethod::kKemppinen,
                                                  rivalFrame(1 << 17, 1e-3 * step, per_pixel))) -
                            1));
+  return finding;
+}
+
+// The authors' dictionary has a mean of its own, which is the surface's lobe roughly: along the
+// normal, where turns change nothing, the square of all marginals' mean. Cells have a level from a
+// normal distribution of deviation 2; those beyond the last have the lobe itself.
+Finding dictionaryBias(const CheckContext& context) {
+  Finding finding(kEnergyTolerance);
+  const double side = std::exp2(-8.5);
+  constexpr double kPeak = 0.0566 * 0.0566;  // of a microdetail in the dictionary
+  for (const double per_pixel : {100.0, 1e4}) {
+    const HandMadeFrame frame = rivalFrame(1 << 17, side, per_pixel);
+    double predicted = 0;
+    for (const double cell : {std::exp2(-9), std::exp2(-8)}) {
+      const double count = per_pixel * std::pow(cell / side, 2) * kRivalProbability / kPeak;
+      const double level = std::log2(count) / 2;
+      const auto below = [&](double x) { return 0.5 * std::erfc((level - x) / std::sqrt(8.0)); };
+      predicted += 0.5 * (1 - below(15.5));
+      for (int l = 0; l < 16; ++l) {
+        double mean = 0;
+        for (std::uint32_t i = 0; i < 192; ++i)
+          mean += reference::chermainMarginal(l, i, true, 0) / 192;
+        const double share =
+            (l == 15 ? below(15.5) : below(l + 0.5)) - (l == 0 ? 0 : below(l - 0.5));
+        predicted += 0.5 * share * mean * mean * std::numbers::pi;
+      }
+    }
+    finding.add(
+        std::abs(rivalMean(rivalRatios(context, GlintMethod::kChermain, frame)) - predicted));
+  }
+  return finding;
+}
+
+// Even draws have the surface's lobe as their mean, at every slope.
+Finding evenDictionary(const CheckContext& context) {
+  Finding finding(kEnergyTolerance);
+  for (const double per_pixel : {30.0, 1000.0, 1e5})
+    for (const double slope : {0.0, 0.15, 0.4}) {
+      HandMadeFrame frame = rivalFrame(1 << 17, 1.3e-3, per_pixel);
+      frame.lights = {
+          coneLight({std::sin(2 * std::atan(slope)), 0, std::cos(2 * std::atan(slope))})};
+      finding.add(
+          std::abs(rivalMean(rivalRatios(context, GlintMethod::kChermainCorrected, frame)) - 1));
+    }
   return finding;
 }
 
@@ -219,14 +264,19 @@ std::vector<Check> rivalChecks() {
       {"rival/deliot_corrected_bias", "mean off what its gates and Gaussians have",
        [](const CheckContext& context) { return gatedBias(context, false); }},
       {"rival/kemppinen_mean", "mean over the smooth lobe - 1", particleMean},
+      {"rival/chermain_bias", "mean off what its dictionary has", dictionaryBias},
+      {"rival/chermain_corrected_mean", "mean over the smooth lobe - 1", evenDictionary},
       {"rival/published_zk16_fireflies", "mean of few reflecting ones, - 1", publishedFireflies},
       {"rival/published_zk16_variance", "variance over the binomial's, less a half",
        publishedVariance},
       {"rival/published_zk16_hash", "share of numbers with other hashes", publishedHashes}};
-  for (const auto& [name, method] : {std::pair("deliot_belcour", GlintMethod::kDeliotBelcour),
-                                     std::pair("deliot_corrected", GlintMethod::kDeliotCorrected),
-                                     std::pair("kemppinen", GlintMethod::kKemppinen),
-                                     std::pair("published_zk16", GlintMethod::kPublishedZk16)})
+  for (const auto& [name, method] :
+       {std::pair("deliot_belcour", GlintMethod::kDeliotBelcour),
+        std::pair("deliot_corrected", GlintMethod::kDeliotCorrected),
+        std::pair("kemppinen", GlintMethod::kKemppinen),
+        std::pair("chermain", GlintMethod::kChermain),
+        std::pair("chermain_corrected", GlintMethod::kChermainCorrected),
+        std::pair("published_zk16", GlintMethod::kPublishedZk16)})
     checks.push_back(
         {fmt::format("rival/{}_motion", name), "change per hundredth of a pixel, per contrast",
          [method = method](const CheckContext& context) { return rivalMotion(context, method); }});

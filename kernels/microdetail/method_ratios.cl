@@ -6,7 +6,8 @@
 // everywhere, so that pixels differ in their place on the texture only. One work-item: WIDTH pixels
 // of `stride`, a multiple of WIDTH.
 kernel void methodRatios(global const uint* pixels, constant const MaterialParams* material,
-                         global float* ratios, float half_u, float half_v, uint stride) {
+                         global float* ratios, float half_u, float half_v,
+                         uint stride GLINT_TABLE_PARAMETER) {
   const size_t i = get_global_id(0) * WIDTH;
   if (i >= stride) return;
 #define WORD(plane) loadUint(pixels, (plane) * (size_t)stride + i)
@@ -25,9 +26,9 @@ kernel void methodRatios(global const uint* pixels, constant const MaterialParam
                              (vfloat)(half_vector.z)};
   const LightLobe lobe =
       pointLobe(direction, direction, smithLambda(direction, material->surface.alpha_g), material);
-  const PixelGlints pixel = makePixelGlints(uv, material);
+  const PixelGlints pixel = makePixelGlints(uv, material GLINT_TABLE_ARGUMENT(glint_table));
   VisitedCells not_counted = {(vint)(0), (vint)(0), (vint)(0)};
-  const vfloat3 ratio = microdetailRatio(&pixel, lobe, material, 0.0f, &not_counted);
+  const vfloat3 ratio = microdetailRatio(&pixel, lobe, material, (ConeSlope)(0.0f), &not_counted);
   storeFloat(ratio.x, ratios, i);
   storeFloat(ratio.y, ratios, stride + i);
   storeFloat(ratio.z, ratios, 2 * (size_t)stride + i);

@@ -69,7 +69,7 @@ TEST(CellsZk16, LowerLimitsVisitFewerCells) {
 }
 
 // A grid's weight of one cell, found by sampling the parallelogram.
-double sampledCoverage(const reference::GridFootprint& grid, std::int32_t u, std::int32_t v) {
+double sampledCoverage(const reference::GridFootprint& grid, std::int64_t u, std::int64_t v) {
   constexpr int kSteps = 200;
   int inside = 0;
   for (int j = 0; j < kSteps; ++j)
@@ -108,10 +108,8 @@ TEST(CellsExact, ReferenceFindsEveryTouchedCell) {
       for (int s = 0; s < 400; ++s) {
         const double a = std::fmod(s * 0.6180339887, 1.0) - 0.5, b = (s + 0.5) / 400 - 0.5;
         const glm::dvec2 p = grid.centre + grid.edge_x * a + grid.edge_y * b;
-        const auto u =
-            static_cast<std::int32_t>(grid.base_u + static_cast<std::int64_t>(std::floor(p.x)));
-        const auto v =
-            static_cast<std::int32_t>(grid.base_v + static_cast<std::int64_t>(std::floor(p.y)));
+        const std::int64_t u = grid.base_u + static_cast<std::int64_t>(std::floor(p.x));
+        const std::int64_t v = grid.base_v + static_cast<std::int64_t>(std::floor(p.y));
         missing += std::ranges::none_of(
             visit.cells, [&](const reference::Cell& cell) { return cell.u == u && cell.v == v; });
       }

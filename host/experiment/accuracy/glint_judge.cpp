@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "host/core/error.h"
+#include "host/frame/effect/glint_table.h"
 #include "host/microdetail/binomial_truth.h"
 #include "host/microdetail/method_ratios.h"
 #include "host/report/distribution.h"
@@ -249,7 +250,8 @@ GlintFigures GlintJudge::method(const KernelConfig& config, std::size_t stage, b
           lattices.push_back(lattice.moved(motion.x, motion.y));
         }
         const auto ratios = methodRatios(device_, cache_, config, lattices,
-                                         glintMaterial(stages_[stage], step), kGlintHalfSlope);
+                                         glintMaterial(stages_[stage], step), kGlintHalfSlope,
+                                         glintTable(device_, config, BufferPurpose::kMicrodetails));
         std::vector<Frames> frames;
         for (std::size_t i = 0; i < ratios.size(); i += 2)
           frames.push_back({redOf(ratios[i]), redOf(ratios[i + 1]), side_});
