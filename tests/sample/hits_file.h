@@ -1,5 +1,6 @@
 // The file between write_hits and shade_hits: this header, then kHitArrays arrays of `count` words
-// (kernels/sample/glints.cl) and three arrays of the radiance that our frame has, r, g and b.
+// (kernels/sample/glints.cl), three arrays of the radiance that our frame has, r, g and b, and the
+// floats of the table that the method looks things up in, if it has one.
 #pragma once
 #include <cstdint>
 
@@ -10,5 +11,6 @@ struct HitsHeader {
   std::uint32_t count;           // hits, a multiple of 64
   std::uint32_t material_bytes;  // of MaterialParams
   float irradiance[4];
+  std::uint32_t table_floats;
   unsigned char material[288];
 };

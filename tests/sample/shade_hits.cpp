@@ -93,6 +93,11 @@ std::vector<std::uint32_t> shade(const HitsHeader& header, const std::uint32_t* 
   check(clSetKernelArg(kernel, 2, sizeof header.irradiance, header.irradiance), "irradiance");
   check(clSetKernelArg(kernel, 3, sizeof(cl_mem), &out), "radiance");
   check(clSetKernelArg(kernel, 4, sizeof header.count, &header.count), "count");
+  if (header.table_floats > 0) {
+    const std::uint32_t* table = hits + (std::size_t{kHitArrays} + 3) * header.count;
+    const cl_mem table_buffer = upload(table, std::size_t{header.table_floats} * 4);
+    check(clSetKernelArg(kernel, 5, sizeof(cl_mem), &table_buffer), "the method's table");
+  }
   const std::size_t items = header.count / std::stoul(lanes);
   check(clEnqueueNDRangeKernel(queue, kernel, 1, nullptr, &items, nullptr, 0, nullptr, nullptr),
         "the launch");
@@ -106,7 +111,7 @@ int run(char** argv) {
   const std::string text = readAll(argv[1]);
   HitsHeader header;
   std::memcpy(&header, text.data(), sizeof header);
-  const std::size_t words = std::size_t{header.count} * (kHitArrays + 3);
+  const std::size_t words = std::size_t{header.count} * (kHitArrays + 3) + header.table_floats;
   if (text.size() != sizeof header + words * 4)
     throw std::runtime_error(std::string(argv[1]) + " is no file of write_hits");
   std::vector<std::uint32_t> arrays(words);

@@ -6,11 +6,13 @@
 #include <cstring>
 #include <exception>
 #include <fstream>
+#include <optional>
 #include <vector>
 
 #include "host/core/error.h"
 #include "host/core/float4.h"
 #include "host/core/glint_grids.h"
+#include "host/frame/effect/glint_table.h"
 #include "host/frame/effect/lights.h"
 #include "host/frame/frame_renderer.h"
 #include "host/harness/small_scenes.h"
@@ -51,6 +53,15 @@ std::vector<float> directions(Device& device, const FrameRenderer& renderer, con
   return result;
 }
 
+// What the method looks things up in; empty for most.
+std::vector<float> methodsTable(Device& device, const KernelConfig& config) {
+  const std::optional<Buffer> table = glintTable(device, config, BufferPurpose::kProbe);
+  if (!table) return {};
+  std::vector<float> floats(table->bytes() / sizeof(float));
+  table->read(floats.data(), table->bytes());
+  return floats;
+}
+
 void write(const std::string& method, const std::string& path) {
   Scene scene = floorScene();
   scene.materials[0].params.glints.size_variation = 1;
@@ -76,6 +87,9 @@ void write(const std::string& method, const std::string& path) {
   const MaterialParams material = withGlintGrids(scene.materials[0].params);
   std::memcpy(header.material, &material, sizeof header.material);
 
+  const std::vector<float> table = methodsTable(device, renderer.configs().front());
+  header.table_floats = static_cast<std::uint32_t>(table.size());
+
   std::ofstream file(path, std::ios::binary);
   append(file, &header, 1);
   const std::vector<float> vectors = directions(device, renderer, light.direction);
@@ -91,6 +105,7 @@ void write(const std::string& method, const std::string& path) {
     brightest = std::max(brightest, *std::ranges::max_element(values));
     append(file, values.data(), values.size());
   }
+  append(file, table.data(), table.size());
   if (!(brightest > 0)) throw Error("the frame is black");
   if (!file.flush()) throw Error("cannot write '" + path + "'");
 }
