@@ -20,7 +20,7 @@ constexpr std::uint32_t kLobeSalt = 0x9E3779B1u, kDistributionSalt = 0x85EBCA77u
 
 constexpr int kEvenBits = 16;
 
-using Nodes = std::array<double, DICTIONARY_NODES>;
+using LobeNodes = std::array<double, DICTIONARY_NODES>;
 
 std::uint32_t scrambled(std::uint32_t h) {
   h ^= h >> 16;
@@ -60,7 +60,7 @@ double stratifiedShare(std::uint32_t lobe, std::uint32_t distribution) {
 
 // Adds a Gaussian, 1 at its peak, around `from` >= 0 and its image around -from. From node to node
 // its factor falls by a constant factor.
-void addLobe(double from, Nodes& nodes) {
+void addLobe(double from, LobeNodes& nodes) {
   static const double fall = std::exp(-kStep * kStep / (kLobe * kLobe));
   const int middle = static_cast<int>(from / kStep);
   for (const double at : {from, -from}) {
@@ -79,7 +79,7 @@ void addLobe(double from, Nodes& nodes) {
 }
 
 // The trapezoids' sum is made 1/2.
-void store(const Nodes& nodes, float* row) {
+void store(const LobeNodes& nodes, float* row) {
   double sum = -0.5 * nodes[0];
   for (const double value : nodes) sum += value;
   for (std::size_t i = 0; i < nodes.size(); ++i)
@@ -90,7 +90,7 @@ void fill(SlopeDraws draws, std::uint32_t distribution, std::vector<float>& dict
   const bool stratified = draws == SlopeDraws::kStratified;
   // What lobes and the lines between nodes add to the variance.
   const double variance = 0.5 - (stratified ? kLobe * kLobe + kStep * kStep / 6 : 0);
-  Nodes nodes{};
+  LobeNodes nodes{};
   std::uint32_t lobe = 0;
   for (int level = 0; level < DICTIONARY_LEVELS; ++level) {
     for (; lobe < 1u << level; ++lobe) {

@@ -9,13 +9,13 @@ namespace glintmark::reference {
 namespace {
 
 constexpr int kConeDirections = 600;
-constexpr int kNodes = 192;        // a side, of slopes from -kMostSlope to kMostSlope
+constexpr int kConeNodes = 192;    // a side, of slopes from -kMostSlope to kMostSlope
 constexpr double kDeviations = 4;  // of slopes that are looked up
 constexpr double kSpiralStep = 0.6180339887498949;
 
 // Chances of one light over the plane of slopes.
 struct ChanceMap {
-  std::vector<float> chance;  // kNodes x kNodes
+  std::vector<float> chance;  // kConeNodes x kConeNodes
   double share = 0;
 };
 
@@ -23,9 +23,9 @@ struct ChanceMap {
 struct SlopeNodes {
   double most = 1;  // slope
 
-  double at(int node) const { return most * (2.0 * node / (kNodes - 1) - 1); }
+  double at(int node) const { return most * (2.0 * node / (kConeNodes - 1) - 1); }
   double position(double slope) const {
-    return std::clamp((slope / most + 1) * 0.5 * (kNodes - 1), 0.0, kNodes - 1.001);
+    return std::clamp((slope / most + 1) * 0.5 * (kConeNodes - 1), 0.0, kConeNodes - 1.001);
   }
 };
 
@@ -38,7 +38,7 @@ void addLobe(const SlopeNodes& nodes, const glm::dvec2& slope, double weight, do
   for (int y = first(slope.y); y <= last(slope.y); ++y)
     for (int x = first(slope.x); x <= last(slope.x); ++x) {
       const glm::dvec2 d = (glm::dvec2(nodes.at(x), nodes.at(y)) - slope) / alpha;
-      map[static_cast<std::size_t>(y * kNodes + x)] += weight * std::exp(-glm::dot(d, d));
+      map[static_cast<std::size_t>(y * kConeNodes + x)] += weight * std::exp(-glm::dot(d, d));
     }
 }
 
@@ -55,7 +55,7 @@ glm::dvec3 coneDirection(const Cone& cone, int i) {
 
 ChanceMap chanceMap(const ConeShare& light, const glm::dvec3& view, double alpha_l,
                     const SlopeNodes& nodes) {
-  std::vector<double> mass(kNodes * kNodes);
+  std::vector<double> mass(kConeNodes * kConeNodes);
   for (int i = 0; i < kConeDirections; ++i) {
     const glm::dvec3 direction = coneDirection(light.cone, i);
     if (direction.z <= 0) continue;
@@ -96,7 +96,7 @@ std::vector<double> pixelsUnderCones(std::span<const ConeShare> lights, const gl
       const double u = chance(random);
       for (std::size_t l = 0; l < maps.size(); ++l)
         count[l] +=
-            u < static_cast<double>(maps[l].chance[static_cast<std::size_t>(y * kNodes + x)]);
+            u < static_cast<double>(maps[l].chance[static_cast<std::size_t>(y * kConeNodes + x)]);
     }
   for (const std::vector<int>& count : counts)
     for (std::size_t l = 0; l < maps.size(); ++l) reflecting[l] += count[l];

@@ -128,6 +128,15 @@ TEST(Unnamed, OneNameInTwoSourcesOfAFolderIsAFault) {
   }
 }
 
+// What a line declares beside its first name, and names of types.
+TEST(Unnamed, EveryNameOfALineCounts) {
+  const auto faults = faultsOfUnnamed("constexpr int kOne = 1, kTwo = 2;\nusing Three = int;",
+                                      "constexpr int kTwo = 3;\nstruct Three {\n};");
+  EXPECT_EQ(faults.size(), 2u);
+  EXPECT_TRUE(
+      faultsOfUnnamed("constexpr int kOne = 1, kTwo = 2;", "constexpr int kThree = 3;").empty());
+}
+
 TEST(Unnamed, OtherFunctionsOfANameLocalNamesAndOutsidersAreNot) {
   EXPECT_TRUE(faultsOfUnnamed("int f(int x) {\n}", "int f(double x) {\n}").empty());
   EXPECT_TRUE(

@@ -35,16 +35,24 @@ std::vector<std::string> unnamedLines(const std::string& code) {
 }
 
 // What a line at the outermost level declares, with the types of a function's parameters as far as
-// they stand on the line, since functions may share a name; "" if nothing.
-std::string declaredBy(const std::string& line) {
+// they stand on the line, since functions may share a name. A line may declare several constants.
+std::vector<std::string> declaredBy(const std::string& line) {
   static const std::regex type(R"(^(?:struct|class|enum class|enum)\s+(\w+)\b.*)");
+  static const std::regex alias(R"(^using\s+(\w+)\s*=.*)");
   static const std::regex function(R"(^[\w:][\w:<>,&*\s]*[\s&*](\w+\(.*)$)");
   static const std::regex variable(
       R"(^(?:constexpr|const|static|inline)\b[^=({]*[\s&*](\w+)(?:\[[^\]]*\])*\s*[={;].*)");
+  static const std::regex next_constant(R"(,\s*[&*]*(k[A-Z]\w*)\s*=)");
   std::smatch match;
-  for (const std::regex* kind : {&type, &variable, &function})
-    if (std::regex_match(line, match, *kind)) return match[1];
-  return "";
+  for (const std::regex* kind : {&type, &alias, &variable, &function}) {
+    if (!std::regex_match(line, match, *kind)) continue;
+    std::vector<std::string> names = {match[1]};
+    if (kind == &variable)
+      for (std::sregex_iterator it(line.begin(), line.end(), next_constant), end; it != end; ++it)
+        names.push_back((*it)[1]);
+    return names;
+  }
+  return {};
 }
 
 }  // namespace
@@ -54,14 +62,13 @@ std::vector<std::string> sharedUnnamed(const Files& files) {
   std::vector<std::string> faults;
   for (const auto& [path, text] : files) {
     if (!path.ends_with(".cpp") || path.starts_with("bench/")) continue;
-    for (const std::string& line : unnamedLines(codeOf(text))) {
-      const std::string name = declaredBy(line);
-      if (name.empty()) continue;
-      const auto [known, is_new] = first[folderOf(path)].emplace(name, path);
-      if (!is_new && known->second != path)
-        faults.push_back(path + ": '" + name.substr(0, name.find('(')) + "' is also a name of " +
-                         known->second);
-    }
+    for (const std::string& line : unnamedLines(codeOf(text)))
+      for (const std::string& name : declaredBy(line)) {
+        const auto [known, is_new] = first[folderOf(path)].emplace(name, path);
+        if (!is_new && known->second != path)
+          faults.push_back(path + ": '" + name.substr(0, name.find('(')) + "' is also a name of " +
+                           known->second);
+      }
   }
   return faults;
 }
