@@ -6,7 +6,7 @@
 
 #include "host/cli/command_line.h"
 #include "host/cli/output_options.h"
-#include "host/experiment/scale/scale_run.h"
+#include "host/experiment/scaling/scaling_run.h"
 #include "host/frame/shading_options.h"
 
 namespace glintmark {
@@ -14,14 +14,14 @@ namespace glintmark {
 void addScaleCommand(Command app, CommandLine& line) {
   auto options = std::make_shared<BenchOptions>();
   options->folder = "results/latest/scale";
-  auto selection = std::make_shared<ScaleSelection>();
+  auto selection = std::make_shared<ScalingSelection>();
   Command command =
       app.subcommand("scale", "Time of a view over resolution, lanes of work-items and threads");
   command.option("scene", selection->scene, "Scene name or file").required().typeName("SCENE");
   command.option("--view", selection->view, "View (default: the scene's first)");
   command
       .option("--axis", selection->knobs,
-              fmt::format("Only this axis: {}; repeatable", fmt::join(scaleKnobs(), ", ")))
+              fmt::format("Only this axis: {}; repeatable", fmt::join(scalingKnobs(), ", ")))
       .oneValueEach();
   command
       .option("--up-to", selection->most_height_px,
@@ -39,7 +39,7 @@ void addScaleCommand(Command app, CommandLine& line) {
       "  glintmark scale snow --up-to 2160 -o results/scale    (glintmark report results/scale)");
   command.callback([options, selection, &line] {
     options->scenes = {selection->scene};
-    line.action = [options, selection, &line] { return runScale(line, *selection, *options); };
+    line.action = [options, selection, &line] { return runScaling(line, *selection, *options); };
   });
 }
 

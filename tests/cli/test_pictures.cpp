@@ -95,7 +95,7 @@ TEST(Render, PngAndPlanes) {
   const Image planes = readImage(folder / "planes.exr");
   EXPECT_EQ(planes.height, 37);
   for (const char* name :
-       {"material", "u.frac", "dudx", "dvdy", "N.Y", "Z", "uv.X", "crypto_material00.R"}) {
+       {"material", "u.frac", "dudx", "dvdy", "N.Y", "uv.X", "crypto_material00.R"}) {
     EXPECT_NE(std::ranges::find(planes.channel_names, name), planes.channel_names.end()) << name;
   }
 }
@@ -153,6 +153,15 @@ TEST(Render, DrawnLightsKeepTheMeanAndDrawLess) {
   const std::vector<float> one = render("screen_plane", "1"), plain = render("screen_plane", "0");
   for (std::size_t i = 0; i < plain.size(); ++i)
     ASSERT_NEAR(one[i], plain[i], 1e-5f * (1 + plain[i])) << i;
+}
+
+// One program for glints under cones and for area lights.
+TEST(Render, DrawnLightsBesideAreaLights) {
+  const TempFolder folder;
+  runQuietly({"render", "mixed", "-o", folder / "a.exr", "--size", "64x36", "--drawn-lights", "4",
+              "--aov", folder / "b.exr"});
+  const Image planes = readImage(folder / "b.exr");
+  EXPECT_NE(std::ranges::find(planes.channel_names, "Z"), planes.channel_names.end());
 }
 
 TEST(Render, DrawnLightsAreUpToEight) {

@@ -42,7 +42,7 @@ TEST(Scale, TurnsPixelsLanesAndThreads) {
   EXPECT_TRUE(cases.contains("screen_plane/steep/threads=1") ||
               result.out.find("threads left out: ") != std::string::npos)
       << result.out;
-  EXPECT_NE(result.out.find("\nscore: scale "), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("\nscore: scaling "), std::string::npos) << result.out;
 }
 
 TEST(Scale, RefusesWhatItDoesNotKnow) {

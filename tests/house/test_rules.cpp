@@ -135,6 +135,7 @@ TEST(Unnamed, EveryNameOfALineCounts) {
   EXPECT_EQ(faults.size(), 2u);
   EXPECT_TRUE(
       faultsOfUnnamed("constexpr int kOne = 1, kTwo = 2;", "constexpr int kThree = 3;").empty());
+  EXPECT_TRUE(faultsOfUnnamed("using Three = int;", "using Three = int;").empty());
 }
 
 TEST(Unnamed, OtherFunctionsOfANameLocalNamesAndOutsidersAreNot) {

@@ -58,16 +58,18 @@ std::vector<std::string> declaredBy(const std::string& line) {
 }  // namespace
 
 std::vector<std::string> sharedUnnamed(const Files& files) {
-  std::map<std::string, std::map<std::string, std::string>> first;  // of a folder: file by name
+  // Of a folder, by name: the file, and the line, since a type may be called the same twice.
+  std::map<std::string, std::map<std::string, std::pair<std::string, std::string>>> first;
   std::vector<std::string> faults;
   for (const auto& [path, text] : files) {
     if (!path.ends_with(".cpp") || path.starts_with("bench/")) continue;
     for (const std::string& line : unnamedLines(codeOf(text)))
       for (const std::string& name : declaredBy(line)) {
-        const auto [known, is_new] = first[folderOf(path)].emplace(name, path);
-        if (!is_new && known->second != path)
+        const auto [known, is_new] = first[folderOf(path)].try_emplace(name, path, line);
+        const auto& [other, other_line] = known->second;
+        if (!is_new && other != path && !(line.starts_with("using ") && line == other_line))
           faults.push_back(path + ": '" + name.substr(0, name.find('(')) + "' is also a name of " +
-                           known->second);
+                           other);
       }
   }
   return faults;

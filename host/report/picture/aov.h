@@ -8,7 +8,8 @@ namespace glintmark {
 /// Scatters every plane from list order to the screen, one named channel per plane ("dudx",
 /// "Z", ...) plus "material"; "pixel" is left out. Integer planes are written as numbers (the
 /// fractions in [0, 1)), and their sums as "uv.X" and "uv.Y"; the packed frame becomes its normal
-/// and tangent, "N.X" ... and "T.X" .... Pixels that no material covers are 0, and -1 in "material".
+/// and tangent, "N.X" ... and "T.X" .... Pixels that no material covers are 0, and -1 in
+/// "material".
 Image planesToImage(const PixelPlanes& planes);
 
 }  // namespace glintmark

@@ -1,4 +1,4 @@
-// Table `scale` as text.
+// Table `scaling` as text.
 #pragma once
 #include <span>
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace glintmark {
 
-/// Table "scale": names, metrics, what the page shows.
-const TableSpec& scaleSpec();
+/// Table "scaling": names, metrics, what the page shows.
+const TableSpec& scalingSpec();
 
 /// The knobs of its cases: pixels down the image, lanes of a work-item, compute units.
 inline constexpr const char* kHeightKnob = "height";
@@ -17,6 +17,6 @@ inline constexpr const char* kLanesKnob = "lanes";
 inline constexpr const char* kThreadsKnob = "threads";
 
 /// A row a case, a rule between the knobs. At most 100 columns.
-std::string scaleTableText(std::span<const Record> records);
+std::string scalingTableText(std::span<const Record> records);
 
 }  // namespace glintmark

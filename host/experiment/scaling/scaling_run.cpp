@@ -1,4 +1,4 @@
-#include "host/experiment/scale/scale_run.h"
+#include "host/experiment/scaling/scaling_run.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,7 +10,7 @@
 #include "host/experiment/all_tables.h"
 #include "host/experiment/frame_timing.h"
 #include "host/experiment/interrupt.h"
-#include "host/experiment/scale/scale_table.h"
+#include "host/experiment/scaling/scaling_table.h"
 #include "host/report/metrics.h"
 #include "host/report/record/case_name.h"
 #include "host/report/record/score.h"
@@ -27,9 +27,9 @@ struct ScaledFrame {
   FrameTimes prepared;
 };
 
-class ScaleMeasurement {
+class ScalingMeasurement {
  public:
-  ScaleMeasurement(BenchRun& run, const ScaleSelection& selection)
+  ScalingMeasurement(BenchRun& run, const ScalingSelection& selection)
       : run_(run),
         scene_(openScene(run.session().common, selection.scene)),
         view_(chosenView(scene_, selection.view)),
@@ -65,7 +65,7 @@ ImageSize sizeOfHeight(int height_px) {
   return {height_px * 16 / 9, height_px};
 }
 
-std::vector<int> ScaleMeasurement::heights() {
+std::vector<int> ScalingMeasurement::heights() {
   std::vector<int> heights_px;
   for (const int height_px : kHeights_px) {
     if (height_px > most_height_px_) continue;
@@ -81,7 +81,7 @@ std::vector<int> ScaleMeasurement::heights() {
 }
 
 // Powers of two and all.
-std::vector<int> ScaleMeasurement::threadCounts() {
+std::vector<int> ScalingMeasurement::threadCounts() {
   const int all = static_cast<int>(run_.device().info().compute_units);
   std::vector<int> counts;
   for (int count = 1; count < all; count *= 2) counts.push_back(count);
@@ -95,13 +95,13 @@ std::vector<int> ScaleMeasurement::threadCounts() {
   return counts;
 }
 
-std::vector<int> ScaleMeasurement::values(const std::string& knob) {
+std::vector<int> ScalingMeasurement::values(const std::string& knob) {
   if (knob == kHeightKnob) return heights();
   if (knob == kThreadsKnob) return threadCounts();
   return {kLaneCounts.begin(), kLaneCounts.end()};
 }
 
-ShadingOptions ScaleMeasurement::options(const std::string& knob, int value) const {
+ShadingOptions ScalingMeasurement::options(const std::string& knob, int value) const {
   ShadingOptions options = run_.shading();
   options.method = run_.method();
   if (knob == kHeightKnob) {
@@ -113,7 +113,7 @@ ShadingOptions ScaleMeasurement::options(const std::string& knob, int value) con
   return options;
 }
 
-ScaledFrame ScaleMeasurement::frame(const std::string& knob, int value) {
+ScaledFrame ScalingMeasurement::frame(const std::string& knob, int value) {
   stopIfInterrupted();
   const bool divided = knob == kThreadsKnob;
   ScaledFrame frame;
@@ -127,7 +127,7 @@ ScaledFrame ScaleMeasurement::frame(const std::string& knob, int value) {
   return frame;
 }
 
-std::vector<Record> ScaleMeasurement::measure(const std::string& case_name) {
+std::vector<Record> ScalingMeasurement::measure(const std::string& case_name) {
   const CaseName parts = CaseName::parse(case_name);
   const std::string& knob = parts.knobs.back().name;
   const int value = static_cast<int>(parts.number(knob));
@@ -136,7 +136,7 @@ std::vector<Record> ScaleMeasurement::measure(const std::string& case_name) {
   const auto covered_px = static_cast<double>(coveredPixels(radiance).width);
   std::vector<Record> records;
   const auto add = [&](const char* metric, const Samples& samples, const std::string& note = "") {
-    records.push_back(run_.record(scaleSpec(), case_name, metric, samples, note));
+    records.push_back(run_.record(scalingSpec(), case_name, metric, samples, note));
     records.back().config["kernels"] = kernelOptions(*scaled.renderer);
   };
   Samples times_ms, ratios;
@@ -168,8 +168,8 @@ std::vector<Record> ScaleMeasurement::measure(const std::string& case_name) {
   return records;
 }
 
-void requireKnownScaleKnobs(const std::vector<std::string>& names) {
-  const std::vector<std::string> known = scaleKnobs();
+void requireKnownScalingKnobs(const std::vector<std::string>& names) {
+  const std::vector<std::string> known = scalingKnobs();
   for (const std::string& name : names)
     if (std::ranges::find(known, name) == known.end())
       throw Error(fmt::format("unknown axis '{}'; axes are {}", name, fmt::join(known, ", ")));
@@ -177,37 +177,37 @@ void requireKnownScaleKnobs(const std::vector<std::string>& names) {
 
 }  // namespace
 
-std::vector<std::string> scaleKnobs() {
+std::vector<std::string> scalingKnobs() {
   return {kHeightKnob, kLanesKnob, kThreadsKnob};
 }
 
-int runScale(const Session& session, const ScaleSelection& selection, BenchOptions options) {
-  requireKnownScaleKnobs(selection.knobs);
+int runScaling(const Session& session, const ScalingSelection& selection, BenchOptions options) {
+  requireKnownScalingKnobs(selection.knobs);
   if (selection.most_height_px < kHeights_px[0] || selection.most_height_px > 16384)
     throw Error(fmt::format("--up-to {} is not a height from {} to 16384 pixels",
                             selection.most_height_px, kHeights_px[0]));
   const InterruptGuard guard;
   BenchRun run(session, options);
-  ScaleMeasurement measurement(run, selection);
+  ScalingMeasurement measurement(run, selection);
   std::vector<std::string> cases;
-  for (const std::string& knob : selectNames(scaleKnobs(), selection.knobs))
+  for (const std::string& knob : selectNames(scalingKnobs(), selection.knobs))
     for (const int value : measurement.values(knob))
       cases.push_back(measurement.caseName(knob, value));
   if (cases.empty()) throw Error("nothing can be measured here: " + measurement.leftOut());
-  run.measureCases(scaleSpec().name, cases,
+  run.measureCases(scalingSpec().name, cases,
                    {"shading_ms", "ns_per_px", "prepare_ms", "buffer_bytes_per_px"},
                    [&](const std::string& name) { return measurement.measure(name); });
-  const std::vector<Record> records = run.recordsOf(scaleSpec().name);
+  const std::vector<Record> records = run.recordsOf(scalingSpec().name);
   const std::string head = fmt::format(
       "Scaling of {}, {} lanes; pictures of 16:9 by height, lanes and threads at {}\non {:.90}\n\n",
       measurement.viewName(), run.info().width, run.options().size, run.info().device);
-  return run.finish(head + scaleTableText(records) + measurement.leftOut() + invalidText(records) +
-                    "\n" + scoreLine(scaleSpec(), records));
+  return run.finish(head + scalingTableText(records) + measurement.leftOut() +
+                    invalidText(records) + "\n" + scoreLine(scalingSpec(), records));
 }
 
 // `bench` does not measure it.
-BenchTable scaleBench() {
-  return {.spec = scaleSpec()};
+BenchTable scalingBench() {
+  return {.spec = scalingSpec()};
 }
 
 }  // namespace glintmark

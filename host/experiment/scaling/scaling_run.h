@@ -8,10 +8,10 @@
 namespace glintmark {
 
 /// What is turned: "height", "lanes", "threads".
-std::vector<std::string> scaleKnobs();
+std::vector<std::string> scalingKnobs();
 
 /// What was asked for.
-struct ScaleSelection {
+struct ScalingSelection {
   std::string scene, view;         // view: empty for the scene's first
   std::vector<std::string> knobs;  // empty: all
   int most_height_px = 4320;
@@ -21,6 +21,6 @@ struct ScaleSelection {
 /// device by powers of two; writes the run's folder, prints the table and returns the exit code.
 /// What the device or its memory cannot do is left out, and said so. Throws Error for names that
 /// are not known, listing the known ones, or if nothing is left.
-int runScale(const Session& session, const ScaleSelection& selection, BenchOptions options);
+int runScaling(const Session& session, const ScalingSelection& selection, BenchOptions options);
 
 }  // namespace glintmark

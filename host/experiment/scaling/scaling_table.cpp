@@ -1,4 +1,4 @@
-#include "host/experiment/scale/scale_table.h"
+#include "host/experiment/scaling/scaling_table.h"
 
 #include "host/report/record/case_name.h"
 #include "host/report/record/case_records.h"
@@ -6,16 +6,17 @@
 
 namespace glintmark {
 
-const TableSpec& scaleSpec() {
+const TableSpec& scalingSpec() {
   static const TableSpec spec = {
-      .name = "scale",
+      .name = "scaling",
       .title = "Scaling",
       .about = "One view at more and more pixels, lanes and compute units.",
       .metrics = {{"shading_ms", "ms", "shading time", "kernel events of the frame",
                    "`SCENE/VIEW/height=…`, `…/lanes=…`, `…/threads=…`"},
                   {"ns_per_px", "ns", "time per pixel",
                    "`shading_ms` over covered pixels, all compute units together"},
-                  {"prepare_ms", "ms", "rasterizing and upload", "on the host's threads"},
+                  {"prepare_ms", "ms", "preparing",
+                   "rasterizing and upload, on the host's threads"},
                   {"buffer_bytes_per_px", "bytes", "buffers per pixel",
                    "device buffers over the pixels of the image"},
                   {"speedup", "1", "speed-up",
@@ -29,7 +30,7 @@ const TableSpec& scaleSpec() {
   return spec;
 }
 
-std::string scaleTableText(std::span<const Record> records) {
+std::string scalingTableText(std::span<const Record> records) {
   TextTable table({"case", "shading ms", "ns/px", "prepare ms", "B/px", "speed-up", "efficiency"});
   std::string last_knob;
   for (const std::string& name : caseNames(records)) {
