@@ -119,6 +119,9 @@ void checkRenderOptions(const RenderOptions& options) {
       throw Error(
           fmt::format("--aov '{}' must end in .exr: planes are floats", options.aov_output));
     }
+    if (std::filesystem::weakly_canonical(options.aov_output) ==
+        std::filesystem::weakly_canonical(options.output))
+      throw Error(fmt::format("--aov '{}' is the picture's own file", options.aov_output));
     requireWritableFile(options.aov_output);
   }
   if (options.exposure && !(*options.exposure > 0)) {

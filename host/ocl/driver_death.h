@@ -6,8 +6,8 @@
 namespace glintmark {
 
 /// As long as one lives, a driver that aborts or crashes ends the program with a sentence on stderr
-/// and kExitNoDevice, not with a signal. For the calls that look for devices and open them; one at
-/// a time.
+/// and kExitNoDevice, not with a signal. For the calls that look for devices and open them, on one
+/// thread. Handlers that a driver installs meanwhile stay.
 class DriverDeath {
  public:
   DriverDeath();

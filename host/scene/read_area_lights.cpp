@@ -47,6 +47,7 @@ double readRadius(SceneTable& table) {
 }
 
 void readEnds(SceneTable& table, AreaLight& light) {
+  if (!table.has("ends")) table.fail("ends", "is missing, expected the 2 ends of the tube");
   const std::vector<glm::dvec3> ends = table.colours("ends", kFinite);
   if (ends.size() != 2)
     table.fail("ends", fmt::format("has {} points, expected the 2 ends of the tube", ends.size()));

@@ -137,8 +137,10 @@ void Simulator::prepare(const SimulationSettings& settings) {
   if (!run_.empty() && settings == settings_) return;
   validate(settings);
   const bool heights = settings.model == SurfaceModel::kHeights;
-  if (heights && (!surface_ || settings.correlation_texels != settings_.correlation_texels))
+  if (heights && (!surface_ || settings.correlation_texels != surface_correlation_texels_)) {
     surface_ = std::make_unique<SurfaceMaker>(device_, cache_, settings.correlation_texels);
+    surface_correlation_texels_ = settings.correlation_texels;
+  }
   trace_ = cache_
                .getWithOptions(heights ? "scatter/heightfield.cl" : "scatter/smith_walk.cl",
                                traceOptions(settings, lanes_))

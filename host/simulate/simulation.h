@@ -93,6 +93,7 @@ class Simulator {
   ProgramCache& cache_;
   int lanes_;
   std::unique_ptr<SurfaceMaker> surface_;
+  double surface_correlation_texels_ = 0;  // of surface_, which outlives settings without heights
   SimulationSettings settings_;
   Kernel trace_;
   Buffer run_, outcomes_;

@@ -103,4 +103,11 @@ ProcessResult runGlintmark(const std::vector<std::string>& arguments,
   return Process(arguments, environment).wait();
 }
 
+std::size_t countOf(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+    ++count;
+  return count;
+}
+
 }  // namespace glintmark

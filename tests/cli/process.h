@@ -3,6 +3,7 @@
 #include <sys/types.h>
 
 #include <chrono>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -45,5 +46,8 @@ class Process {
 /// Starts glintmark with `arguments` and waits for it.
 ProcessResult runGlintmark(const std::vector<std::string>& arguments,
                            const std::vector<std::string>& environment = {});
+
+/// How often `part` stands in a text.
+std::size_t countOf(const std::string& text, const std::string& part);
 
 }  // namespace glintmark

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "host/core/atomic_file.h"
+#include "host/report/picture/image_io.h"
 #include "host/report/record/records.h"
 #include "tests/cli/process.h"
 
@@ -71,6 +72,16 @@ TEST(Accuracy, ModelsAndSimulations) {
       << table;
   std::istringstream lines(table);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
+
+  // A dot for each setting and for each kind's key in the legend: the default, a knob's other
+  // models and one simulation.
+  const std::string chart = readFile(folder / "r/accuracy_msbrdf.svg");
+  EXPECT_TRUE(chart.starts_with("<svg ")) << chart.substr(0, 80);
+  EXPECT_TRUE(chart.ends_with("</svg>\n"));
+  EXPECT_EQ(countOf(chart, "<circle "), 5u + 3u) << chart;
+  for (const char* name : {">msbrdf<", ">default<", ">optimal<", ">sampled rival<"})
+    EXPECT_EQ(countOf(chart, name), 1u) << name << " in " << chart;
+  EXPECT_EQ(readImage(folder / "r/accuracy_msbrdf.png").width, 662);
 
   // All is there already: nothing is measured again, and nothing doubled.
   const std::string log = readFile(folder / "r/records.jsonl");

@@ -191,11 +191,32 @@ TEST(Bench, MethodsOfGlintsSideBySide) {
       EXPECT_GE(record.value.median, 1) << record.case_;
     }
   }
-  for (const char* method : {"zk16", "distributed", "deliot_belcour", "kemppinen"})
+  for (const char* method :
+       {"zk16", "distributed", "deliot_belcour", "kemppinen", "chermain", "chermain_corrected"})
     EXPECT_TRUE(methods.contains(method)) << method;
   EXPECT_EQ(visited["deliot_belcour"], 3 * 48);
   EXPECT_EQ(visited["kemppinen"], 3 * 32);
   EXPECT_EQ(visited["zk16"], visited["distributed"]);
+  std::istringstream lines(readFile(folder / "r/table.txt"));
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
+}
+
+TEST(Bench, AreaLightsOfEveryShape) {
+  const TempFolder folder;
+  const ProcessResult result =
+      runGlintmark({"bench", "tao21", "--quiet", "--scene", "area_plane", "--size", "160x90",
+                    "--reps", "5", "--width", "8", "-o", folder / "r"});
+  ASSERT_EQ(result.exit_code, 0) << result.err << result.out;
+  std::map<std::string, double> least_ms;
+  for (const Record& record : readResults(folder / "r/results.json").records) {
+    EXPECT_TRUE(record.valid) << record.case_ << " " << record.metric << ": " << record.note;
+    if (record.metric == "shading_ms") least_ms[record.case_] = record.value.min;
+  }
+  const double quad_ms = least_ms["area_plane/vertices=4"];
+  EXPECT_GT(quad_ms, 0);
+  // They are no polygons: arcs take longer than edges.
+  for (const char* shape : {"disc", "sphere", "tube"})
+    EXPECT_GT(least_ms[std::string("area_plane/shape=") + shape], 1.2 * quad_ms) << shape;
   std::istringstream lines(readFile(folder / "r/table.txt"));
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
 }

@@ -40,13 +40,6 @@ std::string xmlComplaint(const std::string& text) {
   return open.empty() ? "" : "never closed: " + open.back();
 }
 
-std::size_t countOf(const std::string& text, const std::string& part) {
-  std::size_t count = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
-    ++count;
-  return count;
-}
-
 // The three numbers behind `start`, up to the next quote.
 std::array<double, 3> numbersAfter(const std::string& text, const std::string& start) {
   std::array<double, 3> numbers{};

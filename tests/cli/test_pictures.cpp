@@ -95,7 +95,7 @@ TEST(Render, PngAndPlanes) {
   const Image planes = readImage(folder / "planes.exr");
   EXPECT_EQ(planes.height, 37);
   for (const char* name :
-       {"material", "u.frac", "dudx", "dvdy", "N.Y", "Z", "uv.X", "crypto_material00.R"}) {
+       {"material", "u.frac", "dudx", "dvdy", "N.Y", "uv.X", "crypto_material00.R"}) {
     EXPECT_NE(std::ranges::find(planes.channel_names, name), planes.channel_names.end()) << name;
   }
 }
@@ -124,6 +124,66 @@ TEST(Render, GlintsStarAndSettingsChangeThePicture) {
   EXPECT_NE(plain, render({"--set", "material.glitter.log_density=4"}));
   EXPECT_EQ(plain, render({"--no-star"}));
   EXPECT_EQ(plain, render({"--threads", "1"}));
+}
+
+double meanOf(const std::vector<float>& values) {
+  double sum = 0;
+  for (const float value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
+TEST(Render, DrawnLightsKeepTheMeanAndDrawLess) {
+  const TempFolder folder;
+  const auto render = [&](const char* scene, const char* count) {
+    runQuietly(
+        {"render", scene, "-o", folder / "a.exr", "--size", "96x54", "--drawn-lights", count});
+    return readImage(folder / "a.exr").pixels;
+  };
+  const auto cells = [&](const char* count) {
+    runQuietly({"heatmap", "glitter", "-o", folder / "a.png", "--exr", folder / "b.exr", "--size",
+                "96x54", "--drawn-lights", count});
+    return cellDistribution(readImage(folder / "b.exr")).mean;
+  };
+  // 15 cones.
+  const std::vector<float> all = render("glitter", "0"), some = render("glitter", "2");
+  EXPECT_NE(all, some);
+  EXPECT_NEAR(meanOf(some) / meanOf(all), 1, 0.03);
+  EXPECT_LT(cells("2"), 0.6 * cells("0"));
+  // One light is drawn as ever, but for rounding.
+  const std::vector<float> one = render("screen_plane", "1"), plain = render("screen_plane", "0");
+  for (std::size_t i = 0; i < plain.size(); ++i)
+    ASSERT_NEAR(one[i], plain[i], 1e-5f * (1 + plain[i])) << i;
+}
+
+// One program for glints under cones and for area lights.
+TEST(Render, DrawnLightsBesideAreaLights) {
+  const TempFolder folder;
+  runQuietly({"render", "mixed", "-o", folder / "a.exr", "--size", "64x36", "--drawn-lights", "4",
+              "--aov", folder / "b.exr"});
+  const Image planes = readImage(folder / "b.exr");
+  EXPECT_NE(std::ranges::find(planes.channel_names, "Z"), planes.channel_names.end());
+}
+
+TEST(Render, DrawnLightsAreUpToEight) {
+  const TempFolder folder;
+  for (const char* count : {"9", "-1"}) {
+    const ProcessResult result =
+        runGlintmark({"render", "glitter", "-o", folder / "a.exr", "--drawn-lights", count});
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_NE(result.err.find(std::string("--drawn-lights ") + count + " is not 0 to 8"),
+              std::string::npos)
+        << result.err;
+  }
+  EXPECT_EQ(folder.entryCount(), 0u);
+}
+
+TEST(Render, PlanesDoNotOverwriteThePicture) {
+  const TempFolder folder;
+  const ProcessResult result =
+      runGlintmark({"render", "screen_plane", "-o", folder / "a.exr", "--aov", folder / "./a.exr"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("is the picture's own file"), std::string::npos) << result.err;
+  EXPECT_EQ(folder.entryCount(), 0u);
 }
 
 TEST(Heatmap, FilesAgreeWithTheSummary) {

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <sstream>
 
 #include "host/core/atomic_file.h"
 #include "host/report/picture/image_io.h"
@@ -30,6 +32,9 @@ void expectRefusedSimulation(const std::vector<std::string>& options,
 
 TEST(Simulate, ImpossibleOptionsAreRefused) {
   expectRefusedSimulation({"--surface", "wood"}, {"'wood'", "diffuse, metal, dielectric"});
+  expectRefusedSimulation({"--model", "wood"}, {"'wood'", "heights, smith"});
+  expectRefusedSimulation({"--model", "smith", "--surface", "dielectric"},
+                          {"Smith's walk", "diffuse surfaces and metals"});
   for (const char* alpha : {"0", "-1", "3", "nan"})
     expectRefusedSimulation({"--alpha", alpha}, {"roughness along x", "0.0001 to 2"});
   expectRefusedSimulation({"--alpha", "0.5", "7"}, {"roughness along y 7", "0.0001 to 2"});
@@ -114,6 +119,56 @@ TEST(Simulate, AlbedoScalesOrders) {
   EXPECT_NE(black.out.find("escaped 0.000000, absorbed 1.000000"), std::string::npos) << black.out;
   const ProcessResult white = simulate({"--rays", "20000", "--albedo", "1"});
   EXPECT_NE(white.out.find("absorbed 0.000000"), std::string::npos) << white.out;
+}
+
+// Energies by order of a run's --csv; those that leave above.
+std::vector<double> energiesAbove(const std::string& file) {
+  std::istringstream lines(readFile(file));
+  std::string line;
+  std::getline(lines, line);
+  std::vector<double> energies;
+  while (std::getline(lines, line)) energies.push_back(std::stod(line.substr(line.find(',') + 1)));
+  return energies;
+}
+
+TEST(Simulate, SmithsWalkNeedsNoSurface) {
+  const TempFolder folder;
+  const ProcessResult walk = simulate({"--model", "smith", "--rays", "200000", "--incidence", "75",
+                                       "--csv", folder / "smith.csv", "-o", folder / "smith.png"});
+  ASSERT_EQ(walk.exit_code, 0) << walk.err;
+  EXPECT_TRUE(walk.out.starts_with("smith diffuse alpha=0.8,0.8 incidence=75")) << walk.out;
+  EXPECT_NE(walk.out.find("counted 1.000000000 of the rays"), std::string::npos) << walk.out;
+  EXPECT_EQ(walk.out.find("slope variance"), std::string::npos) << walk.out;
+  EXPECT_GT(readImage(folder / "smith.png").width, 400);
+  // Heights return more of what comes in low than Smith's theory has it.
+  ASSERT_EQ(simulate({"--rays", "200000", "--incidence", "75", "--csv", folder / "heights.csv"})
+                .exit_code,
+            0);
+  const std::vector<double> smith = energiesAbove(folder / "smith.csv"),
+                            heights = energiesAbove(folder / "heights.csv");
+  ASSERT_EQ(smith.size(), 4u);
+  ASSERT_EQ(heights.size(), 4u);
+  EXPECT_NEAR(heights[0] - smith[0], 0.015, 0.008);
+  // A surface that is all but flat has one bounce.
+  const ProcessResult flat = simulate(
+      {"--model", "smith", "--alpha", "0.0001", "--rays", "20000", "--csv", folder / "flat.csv"});
+  ASSERT_EQ(flat.exit_code, 0) << flat.err;
+  EXPECT_EQ(energiesAbove(folder / "flat.csv"), (std::vector<double>{1, 0, 0, 0}));
+}
+
+TEST(Simulate, ModelsDoNotShareCheckpoints) {
+  const TempFolder folder;
+  const std::string file = folder / "run.sim";
+  ASSERT_EQ(simulate({"--model", "smith", "--rays", "1048576", "--checkpoint", file}).exit_code, 0);
+  expectRefusedSimulation({"--resume", "--checkpoint", file},
+                          {"run.sim", "another run (smith diffuse", "this one is diffuse"});
+  ASSERT_EQ(simulate({"--model", "smith", "--rays", "1050000", "--checkpoint", file, "--resume",
+                      "--csv", folder / "a.csv"})
+                .exit_code,
+            0);
+  ASSERT_EQ(
+      simulate({"--model", "smith", "--rays", "1050000", "--csv", folder / "b.csv"}).exit_code, 0);
+  EXPECT_EQ(readFile(folder / "a.csv"), readFile(folder / "b.csv"));
 }
 
 }  // namespace

@@ -124,6 +124,20 @@ TEST(Simulation, ResumesWhereItStopped) {
   EXPECT_EQ(resumed.histogram, simulate(s).histogram);
 }
 
+// One simulator for all: what was simulated before changes nothing.
+TEST(Simulation, ModelsTakeTurns) {
+  KernelBench& bench = testBench();
+  Simulator simulator(bench.device, bench.cache, bench.device.info().default_lanes);
+  SimulationSettings s;
+  s.rays = 5000;
+  simulator.run(s);
+  s.model = SurfaceModel::kSmith;
+  s.correlation_texels = 6;
+  EXPECT_EQ(simulator.run(s).histogram, simulate(s).histogram);
+  s.model = SurfaceModel::kHeights;
+  EXPECT_EQ(simulator.run(s).histogram, simulate(s).histogram);
+}
+
 TEST(Simulation, BadCheckpointsAreErrors) {
   SimulationSettings s;
   s.rays = 1000;

@@ -104,6 +104,7 @@ TEST(AreaLights, BadDiscsSpheresAndTubes) {
   expectMessage(lightComplaint("shape = 'sphere'\nradius = 0"), {"radius is 0"});
   expectMessage(lightComplaint("shape = 'sphere'\nradius = nan"), {"radius is nan"});
   expectMessage(lightComplaint("shape = 'disc'\nradius = 1\nnormal = 0"), {"normal is 0"});
+  expectMessage(lightComplaint("shape = 'tube'\nradius = 1"), {"area_light.lamp.ends is missing"});
   expectMessage(lightComplaint("shape = 'tube'\nradius = 1\nends = [[0, 0, 0]]"),
                 {"ends has 1 points, expected the 2 ends of the tube"});
   expectMessage(lightComplaint("shape = 'tube'\nradius = 1\nends = [[1, 0, 0], [1, 0, 0]]"),
