@@ -69,7 +69,9 @@ ChartPanel panelOf(const SettingGroup& effect) {
   panel.x_high *= kMargin;
   panel.series = {frontOf(effect), noiseOf(effect, panel)};
   for (const Part& part : kParts) panel.series.push_back(partOf(effect, part));
-  std::erase_if(panel.series, [](const ChartSeries& series) { return series.x.empty(); });
+  std::erase_if(panel.series, [](const ChartSeries& series) {
+    return series.x.size() < (series.dots ? 1u : 2u);  // nothing to be seen
+  });
   return panel;
 }
 
