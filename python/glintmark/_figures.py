@@ -10,6 +10,7 @@ _METRICS = {
     "effects": "shading_ms",
     "msbrdf": "simulate_500m_ms",
     "glints": "ns_per_px",
+    "scaling": "ns_per_px",
 }
 
 

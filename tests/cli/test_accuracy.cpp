@@ -79,7 +79,7 @@ TEST(Accuracy, ModelsAndSimulations) {
   EXPECT_TRUE(chart.starts_with("<svg ")) << chart.substr(0, 80);
   EXPECT_TRUE(chart.ends_with("</svg>\n"));
   EXPECT_EQ(countOf(chart, "<circle "), 5u + 3u) << chart;
-  for (const char* name : {">msbrdf<", ">default<", ">optimal<", ">sampled rival<"})
+  for (const char* name : {">msbrdf<", ">default<", ">sampled rival<"})
     EXPECT_EQ(countOf(chart, name), 1u) << name << " in " << chart;
   EXPECT_EQ(readImage(folder / "r/accuracy_msbrdf.png").width, 662);
 
