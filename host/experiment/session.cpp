@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <span>
 
 #include "host/core/error.h"
 #include "host/ocl/device_clock.h"
@@ -64,8 +65,9 @@ ImageSize parseSize(const std::string& text) {
 void prepareDrivers(const CommonOptions& common) {
   const int lanes = common.lanes;
   if (lanes != 0 && std::ranges::find(kLaneCounts, lanes) == kLaneCounts.end())
-    throw Error(
-        fmt::format("--width {} is not a lane count; use {}", lanes, fmt::join(kLaneCounts, ", ")));
+    throw Error(fmt::format("--width {} is not a lane count; use {} or {}", lanes,
+                            fmt::join(std::span(kLaneCounts).first(kLaneCounts.size() - 1), ", "),
+                            kLaneCounts.back()));
   parseTimer(common.timer);
   const std::string note = prepareDriverCache();
   if (!note.empty() && !common.quiet) fmt::print(stderr, "note: {}\n", note);
