@@ -165,11 +165,22 @@ Image renderedTruth(const CommandLine& line, Device& device, const Scene& scene,
   return std::move(truth.mean);
 }
 
-// 1 if it is not finite everywhere, which is said; a picture that is empty is noted.
+bool isBlack(const Image& radiance) {
+  for (int y = 0; y < radiance.height; ++y)
+    for (int x = 0; x < radiance.width; ++x)
+      for (const float value : radiance.at(x, y).first(3))
+        if (value != 0) return false;
+  return true;
+}
+
+// 1 if it is not finite everywhere, which is said; a picture that is empty or black is noted.
 int judgePicture(const Image& radiance, const Scene& scene, const View& view) {
   if (coversNothing(radiance))
     fmt::print(stderr, "note: view {} of {} covers no pixel, so the picture is empty\n", view.name,
                scene.name);
+  else if (isBlack(radiance))
+    fmt::print(stderr, "note: no light reaches what view {} of {} shows, so the picture is black\n",
+               view.name, scene.name);
   const std::size_t broken = brokenPixels(radiance);
   if (broken == 0) return kExitDone;
   fmt::print(stderr,

@@ -75,6 +75,20 @@ TEST(Render, PicturesThatAreNotFiniteAreNotSilent) {
   EXPECT_FALSE(std::filesystem::exists(folder / "b.exr"));
 }
 
+TEST(Render, ABlackPictureSaysSo) {
+  const TempFolder folder;
+  const ProcessResult result =
+      runGlintmark({"render", "screen_plane", "-o", folder / "a.exr", "--size", "32x18", "--set",
+                    "light.0.elevation_deg=-50"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("no light reaches what view steep of screen_plane shows"),
+            std::string::npos)
+      << result.err;
+  const ProcessResult lit =
+      runGlintmark({"render", "screen_plane", "-o", folder / "b.exr", "--size", "32x18"});
+  EXPECT_EQ(lit.err.find("no light reaches"), std::string::npos) << lit.err;
+}
+
 TEST(Render, AViewOfNothingSaysSo) {
   const TempFolder folder;
   const ProcessResult result =
