@@ -55,7 +55,7 @@ case $what in
     ;;
   sample)
     build=$tree/sample_build
-    cmake -S "$from/tests/install/sample" -B "$build" -D CMAKE_PREFIX_PATH="$tree" \
+    cmake -G Ninja -S "$from/tests/install/sample" -B "$build" -D CMAKE_PREFIX_PATH="$tree" \
       -D GLINTMARK_SOURCE="$from" >/dev/null
     cmake --build "$build" >/dev/null
     kernels=$(cat "$build/kernels.txt")
