@@ -2,26 +2,9 @@
 
 #include <cassert>
 
+#include "host/core/xml_escape.h"
+
 namespace glintmark {
-namespace {
-
-std::string escapedXml(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '"')
-      result += "&quot;";
-    else
-      result += c;
-  }
-  return result;
-}
-
-}  // namespace
-
 void XmlText::line(std::string_view tag, const Attributes& attributes, std::string_view end) {
   body_.append(2 * open_.size(), ' ').append("<").append(tag);
   for (const auto& [name, value] : attributes)

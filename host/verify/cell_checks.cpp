@@ -12,15 +12,21 @@
 namespace glintmark {
 namespace {
 
+// So many random footprints of the case, all seen along the normal.
+HandMadeFrame seenFromAbove(const DrawCase& c, int pixels) {
+  HandMadeFrame frame = drawFrame(c);
+  frame.pixels = randomPixels(pixels, c.footprints);
+  for (HandMadePixel& pixel : frame.pixels) pixel.frame = flatFrame();
+  frame.ray_origin = {0, 0, -1};
+  frame.ray_dx = frame.ray_dy = glm::dvec3(0);
+  return frame;
+}
+
 // [ZK16] Sect. 5: from 8 to 64 cells at K_a = 16. Footprints up to beyond the limit, of any size.
 Finding cellRange(const CheckContext& context) {
   const DrawCase c = {"", GlintMethod::kZk16, {.3f, .3f}, {.05f, .05f}, 1e6f, 0, false,
                       16, {1e-5, 1, 200}};
-  HandMadeFrame frame = drawFrame(c);
-  frame.pixels = randomPixels(20000, c.footprints);
-  for (HandMadePixel& pixel : frame.pixels) pixel.frame = flatFrame();
-  frame.ray_origin = {0, 0, -1};
-  frame.ray_dx = frame.ray_dy = glm::dvec3(0);
+  const HandMadeFrame frame = seenFromAbove(c, 20000);
   const ShadedPixels shaded = drawPixels(context, c, frame);
   Finding finding(0);
   double outside = 0;
@@ -37,11 +43,7 @@ Finding cellRange(const CheckContext& context) {
 Finding paidCells(const CheckContext& context) {
   const DrawCase c = {"", GlintMethod::kZk16, {.3f, .3f}, {.05f, .05f}, 1e6f, 0, false,
                       16, {1e-4, 1e-2, 200}};
-  HandMadeFrame frame = drawFrame(c);
-  frame.pixels = randomPixels(4096, c.footprints);
-  for (HandMadePixel& pixel : frame.pixels) pixel.frame = flatFrame();
-  frame.ray_origin = {0, 0, -1};
-  frame.ray_dx = frame.ray_dy = glm::dvec3(0);
+  const HandMadeFrame frame = seenFromAbove(c, 4096);
   const ShadedPixels shaded = drawPixels(context, c, frame);
   const auto lanes = static_cast<std::size_t>(context.lanes);
   Finding finding(0);

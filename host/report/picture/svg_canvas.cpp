@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "host/core/xml_escape.h"
 #include "host/report/picture/chart_canvas.h"
 
 namespace glintmark {
@@ -10,19 +11,6 @@ namespace {
 std::string svgColour(const DisplayColour& colour) {
   const auto byte = [](float part) { return static_cast<int>(std::lround(part * 255)); };
   return fmt::format("#{:02x}{:02x}{:02x}", byte(colour[0]), byte(colour[1]), byte(colour[2]));
-}
-
-std::string svgText(std::string_view text) {
-  std::string escaped;
-  for (const char c : text) {
-    if (c == '&')
-      escaped += "&amp;";
-    else if (c == '<')
-      escaped += "&lt;";
-    else
-      escaped += c;
-  }
-  return escaped;
 }
 
 }  // namespace
@@ -70,10 +58,10 @@ void SvgCanvas::dot(glm::dvec2 centre, double radius_px, const DisplayColour& co
 void SvgCanvas::addText(const std::string& place, const char* anchor, std::string_view text,
                         const TextStyle& style) {
   if (text.empty()) return;
-  elements_ +=
-      fmt::format("<text {} text-anchor=\"{}\" font-size=\"{}\" fill=\"{}\"{}>{}</text>\n", place,
-                  anchor, style.size_px, svgColour(style.colour),
-                  style.weight == TextWeight::kBold ? " font-weight=\"bold\"" : "", svgText(text));
+  elements_ += fmt::format("<text {} text-anchor=\"{}\" font-size=\"{}\" fill=\"{}\"{}>{}</text>\n",
+                           place, anchor, style.size_px, svgColour(style.colour),
+                           style.weight == TextWeight::kBold ? " font-weight=\"bold\"" : "",
+                           escapedXml(text));
 }
 
 void SvgCanvas::text(int x, int baseline_y, std::string_view text, const TextStyle& style,
