@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <functional>
 
+#include "host/report/metrics.h"
+
 namespace glintmark {
 namespace {
 
@@ -34,6 +36,15 @@ std::string kernelOptions(const FrameRenderer& renderer) {
   std::vector<std::string> options;
   for (const KernelConfig& config : renderer.configs()) options.push_back(buildOptions(config));
   return fmt::format("{}", fmt::join(options, " | "));
+}
+
+void invalidateIfInsane(std::vector<Record>& records, const Image& radiance) {
+  const std::size_t bad = badValueCount(radiance);
+  if (bad == 0) return;
+  for (Record& record : records) {
+    record.valid = false;
+    record.note = fmt::format("not valid: {} radiance values are negative or not finite", bad);
+  }
 }
 
 double shadeMs(FrameRenderer& renderer) {

@@ -13,7 +13,6 @@
 #include "host/experiment/glints/glints_table.h"
 #include "host/ocl/static_counts.h"
 #include "host/ocl/switches.h"
-#include "host/report/metrics.h"
 #include "host/report/record/case_name.h"
 
 namespace glintmark {
@@ -118,11 +117,7 @@ std::vector<Record> GlintsMeasurement::measure(const std::string& method, const 
   addTimes(*glints, *smooth, counted);
   addStaticCounts(*glints);
   if (kind.lights == 1) addErrors(glints->configs().front(), kind.stage);
-  if (const std::size_t bad = badValueCount(glints->readRadiance()); bad > 0)
-    for (Record& record : records_) {
-      record.valid = false;
-      record.note = fmt::format("not valid: {} radiance values are negative or not finite", bad);
-    }
+  invalidateIfInsane(records_, glints->readRadiance());
   return records_;
 }
 

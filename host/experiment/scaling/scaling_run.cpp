@@ -160,11 +160,7 @@ std::vector<Record> ScalingMeasurement::measure(const std::string& case_name) {
     for (double& ratio : ratios) ratio /= value;
     add("efficiency", ratios);
   }
-  if (const std::size_t bad = badValueCount(radiance); bad > 0)
-    for (Record& record : records) {
-      record.valid = false;
-      record.note = fmt::format("not valid: {} radiance values are negative or not finite", bad);
-    }
+  invalidateIfInsane(records, radiance);
   return records;
 }
 
