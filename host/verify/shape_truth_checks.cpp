@@ -81,10 +81,11 @@ glm::dvec3 asVector(const float4& v) {
   return {v.x, v.y, v.z};
 }
 
-glm::dvec3 wantedRadiance(const Scene& scene, const glm::dvec3& point, const glm::dvec3& view) {
+// `coat`: of the floor's lobe over its diffuse layer.
+glm::dvec3 wantedRadiance(const Scene& scene, const reference::CoatedDiffuse& coat,
+                          const glm::dvec3& point, const glm::dvec3& view) {
   const SurfaceMaterial& surface = scene.materials[0].params.surface;
-  const reference::CoatedDiffuse coat = {reference::Ndf::kGgx, surface.alpha_g.x,
-                                         asVector(surface.f0), surface.intensity};
+  const glm::dvec3 diffuse = asVector(surface.albedo) * coat.share(view.z) / kPi;
   glm::dvec3 sum(0);
   for (const AreaLight& light : scene.area_lights)
     for (const reference::LightPiece& piece :
@@ -97,7 +98,7 @@ glm::dvec3 wantedRadiance(const Scene& scene, const glm::dvec3& point, const glm
           light.radiance * piece.angle_sr *
           (static_cast<double>(surface.intensity) * fresnel *
                reference::microfacetTimesCosine(reference::Ndf::kGgx, l, view, surface.alpha_g.x) +
-           asVector(surface.albedo) * coat.share(view.z) * l.z / kPi);
+           diffuse * l.z);
     }
   return sum;
 }
@@ -118,12 +119,14 @@ Finding shapeTruth(const CheckContext& context, const TruthShape& kind) {
       .width_px = kPictureSize_px, .height_px = kPictureSize_px, .lanes = context.lanes};
   const Image truth = renderTruth(context.bench.device, scene, view, options, kSamples, {}, 1).mean;
   const Camera camera = makeCamera(view, kPictureSize_px, kPictureSize_px);
+  const reference::CoatedDiffuse coat = {reference::Ndf::kGgx, surface.alpha_g.x,
+                                         asVector(surface.f0), surface.intensity};
   Finding finding(1);
   glm::dvec3 got_sum(0), want_sum(0);
   for (int y = 0; y < kPictureSize_px; ++y)
     for (int x = 0; x < kPictureSize_px; ++x) {
       const glm::dvec3 ray = camera.ray(x, y);
-      const glm::dvec3 want = wantedRadiance(scene, camera.eye - ray * (camera.eye.y / ray.y),
+      const glm::dvec3 want = wantedRadiance(scene, coat, camera.eye - ray * (camera.eye.y / ray.y),
                                              toFloor(-glm::normalize(ray)));
       for (int c = 0; c < 3; ++c) {
         const double got = truth.at(x, y)[static_cast<std::size_t>(c)];

@@ -201,6 +201,12 @@ std::string glintsClaimsText(std::span<const Record> records) {
   table.addRow({"converges to the lobe as pixels hold more: W1 at n=0.5", "[KPT25]",
                 range("kemppinen", "error", 0.5)});
   table.addRow({"and at n=1000", "[KPT25]", range("kemppinen", "error", 1000)});
+  table.addRow(
+      {"normalised distributions of slopes: mean - 1", "[CSDD20]", range("chermain", "bias", 0)});
+  table.addRow({"", "corrected", range("chermain_corrected", "bias", 0)});
+  table.addRow({"converges to the lobe as pixels hold more: W1 at n=0.5", "[CSDD20]",
+                range("chermain", "error", 0.5)});
+  table.addRow({"and at n=1000", "[CSDD20]", range("chermain", "error", 1000)});
   table.addRow({"8 to 64 cells a pixel", "[ZK16]", range("zk16", "visited_mean", 0) + " zk16"});
   table.addRow({"", "", range("published_zk16", "visited_mean", 0) + " published_zk16"});
   return "What the literature claims, and here, under one light\n" + table.toString();
