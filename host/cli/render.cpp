@@ -14,6 +14,7 @@
 #include "host/core/trace.h"
 #include "host/experiment/run_inputs.h"
 #include "host/experiment/zoom_strip.h"
+#include "host/frame/background.h"
 #include "host/frame/frame_renderer.h"
 #include "host/frame/ground_truth.h"
 #include "host/frame/shading_options.h"
@@ -51,6 +52,7 @@ struct RenderOptions {
   int zoom = 0;  // octaves; 0: one picture
   bool no_glints = false;
   bool star = false, star_chosen = false;
+  bool background = false, background_chosen = false;
   std::optional<double> exposure;
 };
 
@@ -63,15 +65,18 @@ void printTimes(const std::string& what, const FrameTimes& raster, const FrameTi
              by_wall ? " by the wall clock" : "", readback_ns * 1e-6);
 }
 
-// PNG gets the scene's post effects. EXR holds radiance for measuring, with the star only on
-// demand.
-void writeRendered(Image radiance, const RenderOptions& options, const PostEffects& post,
-                   const std::string& extension, const PictureFacts& facts) {
-  const bool is_png = extension == ".png";
+// PNG gets the scene's post effects and what lies behind it. EXR holds radiance for measuring, with
+// either only on demand.
+void writeRendered(Image radiance, const RenderOptions& options, const Scene& scene,
+                   const View& view, const PictureFacts& facts) {
+  const bool is_png = requireImageExtension(options.output) == ".png";
+  const PostEffects& post = scene.post;
   const double exposure = options.exposure.value_or(post.exposure);
   if (options.star_chosen ? options.star : is_png && post.star) {
     applyStar(radiance, {.threshold = 1 / exposure});  // exposed radiance 1
   }
+  if (options.background_chosen ? options.background : is_png)
+    placeBackground(radiance, scene, view);
   if (is_png) {
     writePng(toneMap(radiance, {.exposure = exposure}), options.output, facts);
   } else {
@@ -233,7 +238,7 @@ int renderPath(const CommandLine& line, const RenderOptions& options, Device& de
     before = std::move(display);
     RenderOptions one = options;
     one.output = numbered(options.output, frame, options.frames);
-    writeRendered(std::move(radiance), one, scene.post, requireImageExtension(one.output), facts);
+    writeRendered(std::move(radiance), one, scene, moved, facts);
   }
   progress.clear();
   fmt::print("{}/{} {}x{}: {} frames along {}", scene.name, view.name, shading.width_px,
@@ -258,7 +263,6 @@ void writePlanes(const PixelPlanes& planes, const Scene& scene, const std::strin
 int runRender(const CommandLine& line, const RenderOptions& options) {
   const CommonOptions& common = line.common;
   checkRenderOptions(options);
-  const std::string extension = requireImageExtension(options.output);
   const ImageSize size = parseSize(options.size);
   ShadingOptions shading{
       .width_px = size.width_px,
@@ -280,7 +284,7 @@ int runRender(const CommandLine& line, const RenderOptions& options) {
   if (options.truth_spp > 0) {
     Image radiance = renderedTruth(line, device, scene, view, shading, options.truth_spp);
     const int code = judgePicture(radiance, scene, view);
-    writeRendered(std::move(radiance), options, scene.post, extension, factsOf(run));
+    writeRendered(std::move(radiance), options, scene, view, factsOf(run));
     return code;
   }
   if (!options.trace.empty()) startTrace();
@@ -296,7 +300,7 @@ int runRender(const CommandLine& line, const RenderOptions& options) {
   }
   if (!options.trace.empty()) writeTrace(options.trace, run);
   const int code = judgePicture(radiance, scene, view);
-  writeRendered(std::move(radiance), options, scene.post, extension, factsOf(run));
+  writeRendered(std::move(radiance), options, scene, view, factsOf(run));
   if (!options.aov_output.empty())
     writePlanes(renderer.planes(), scene, options.aov_output, factsOf(run));
   printTimes(fmt::format("{}/{} {}x{}", scene.name, view.name, size.width_px, size.height_px),
@@ -350,6 +354,9 @@ void addRenderCommand(Command app, CommandLine& line) {
   command.flag("--no-glints", options->no_glints, "Smooth lobes in place of glints");
   const CommandOption star = command.flag("--star,!--no-star", options->star,
                                           "Star-shaped glare (default: the scene's for PNG)");
+  const CommandOption background =
+      command.flag("--background,!--no-background", options->background,
+                   "The environment behind the meshes (default: for PNG)");
   command.option("--exposure", options->exposure, "Scale before tone mapping").typeName("X");
   command.footer(
       "Examples:\n"
@@ -361,8 +368,9 @@ void addRenderCommand(Command app, CommandLine& line) {
       "    --normal-method lean && glintmark diff lean.exr truth.exr -o error.png\n"
       "  glintmark render snow -o snow.png --frames 24 --path orbit --step 0.5\n"
       "  glintmark render snow -o snow.png --trace trace.json    (open it at ui.perfetto.dev)");
-  command.callback([options, star, frames, &line] {
+  command.callback([options, star, background, frames, &line] {
     options->star_chosen = star.given();
+    options->background_chosen = background.given();
     options->frames_given = frames.given();
     line.action = [options, &line] { return runRender(line, *options); };
   });

@@ -190,6 +190,25 @@ glm::dvec3 coneFlux(const ConeLight& light) {
          (2 / (1 + std::cos(static_cast<double>(light.direction.w))));
 }
 
+glm::dvec3 environmentRadiance(const Image& map, const EnvironmentCut& cut,
+                               const glm::dvec3& direction) {
+  const glm::dvec3 towards = glm::normalize(direction);
+  const double azimuth = std::atan2(towards.x, towards.z) - cut.rotation_rad;
+  const double from_zenith = std::acos(std::clamp(towards.y, -1.0, 1.0));
+  const double x = (0.5 + (kPi - azimuth) / (2 * kPi)) * map.width - 0.5;
+  const double y = std::clamp(from_zenith / kPi * map.height - 0.5, 0.0, map.height - 1.0);
+  const double left = std::floor(x), top = std::min(std::floor(y), map.height - 2.0);
+  const auto pixel = [&](double column, double row) {
+    const double around = column - std::floor(column / map.width) * map.width;
+    const auto rgb = map.at(static_cast<int>(around), static_cast<int>(std::max(row, 0.0)));
+    return glm::dvec3(rgb[0], rgb[1], rgb[2]);
+  };
+  const auto row = [&](double at) {
+    return glm::mix(pixel(left, at), pixel(left + 1, at), x - left);
+  };
+  return cut.scale * glm::mix(row(top), row(top + 1), std::clamp(y - top, 0.0, 1.0));
+}
+
 Image renderSky(const SkyParameters& sky) {
   Image map(kSkyWidth_px, kSkyHeight_px, 3);
   for (int y = 0; y < map.height; ++y) {

@@ -28,6 +28,11 @@ struct EnvironmentCut {
 /// finite, and for a black map.
 std::vector<ConeLight> cutEnvironment(const Image& map, const EnvironmentCut& cut);
 
+/// Radiance (rgb) that a map as cut brings from a direction (not 0, any length), linear between the
+/// centres of pixels.
+glm::dvec3 environmentRadiance(const Image& map, const EnvironmentCut& cut,
+                               const glm::dvec3& direction);
+
 /// Sets values below 0 to 0 that are small beside the map's largest, as filters and fits leave
 /// them, and returns a sentence about them; empty if there are none.
 std::string clampTinyNegatives(Image& map);

@@ -94,6 +94,8 @@ EnvironmentInfo readEnvironment(SceneTable& root, const SceneRequest& request,
   const std::vector<ConeLight> cones = cutEnvironment(map, cut);
   lights.insert(lights.end(), cones.begin(), cones.end());
   info.present = true;
+  info.map = std::make_shared<const Image>(std::move(map));
+  info.cut = cut;
   info.cone_count = static_cast<int>(cones.size());
   return info;
 }

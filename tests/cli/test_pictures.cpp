@@ -146,6 +146,39 @@ double meanOf(const std::vector<float>& values) {
   return sum / static_cast<double>(values.size());
 }
 
+// EXR holds what was shaded; the environment is behind it only if asked for. Below the horizon it
+// is the ground's even colour, where a mesh is nothing changes.
+TEST(Render, TheEnvironmentIsBehindTheMeshes) {
+  const TempFolder folder;
+  const std::vector<std::string> command = {"render", "glitter", "--size", "32x18", "--no-glints"};
+  const auto render = [&](const std::string& file, const std::string& flag) {
+    std::vector<std::string> words = command;
+    words.insert(words.end(), {"-o", folder / file});
+    if (!flag.empty()) words.push_back(flag);
+    runQuietly(words);
+    return readImage(folder / file);
+  };
+  const Image bare = render("a.exr", ""), full = render("b.exr", "--background");
+  ASSERT_EQ(bare.at(0, 17)[3], 0);
+  EXPECT_EQ(bare.at(0, 17)[0], 0);
+  const float ground[] = {0.08f, 0.07f, 0.06f};
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(full.at(0, 17)[c], ground[c], 1e-6);
+  EXPECT_GT(full.at(0, 0)[2], 0.3f);  // the sky's horizon, 0.4, towards its zenith, 0.3
+  EXPECT_EQ(full.at(0, 0)[3], 1);
+  int covered = 0;
+  for (int y = 0; y < 18; ++y)
+    for (int x = 0; x < 32; ++x)
+      if (bare.at(x, y)[3] == 1) {
+        ++covered;
+        EXPECT_TRUE(std::ranges::equal(bare.at(x, y), full.at(x, y))) << x << ' ' << y;
+      }
+  EXPECT_GT(covered, 50);
+  EXPECT_NE(readFile(folder / "a.exr"), readFile(folder / "b.exr"));
+  render("a.png", "");
+  render("b.png", "--no-background");
+  EXPECT_NE(readImage(folder / "a.png").pixels, readImage(folder / "b.png").pixels);
+}
+
 TEST(Render, DrawnLightsKeepTheMeanAndDrawLess) {
   const TempFolder folder;
   const auto render = [&](const char* scene, const char* count) {

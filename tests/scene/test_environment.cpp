@@ -42,6 +42,32 @@ void expectSound(const std::vector<ConeLight>& cones) {
   }
 }
 
+// What is seen towards a lone pixel is that pixel, and its cone stands there, however it is turned.
+TEST(Environment, IsSeenWhereItsConesStand) {
+  Image map = constantMap(64, 32, 0);
+  map.at(20, 9)[1] = 7;
+  for (const double turn : {0.0, 1.0, -2.5}) {
+    const EnvironmentCut cut{1, 0.5, turn};
+    const glm::dvec3 axis = axisOf(cutEnvironment(map, cut).front());
+    EXPECT_NEAR(environmentRadiance(map, cut, 3.0 * axis).y, 3.5, 0.05);
+    EXPECT_EQ(environmentRadiance(map, cut, -axis).y, 0);
+  }
+}
+
+// Linear between pixels, across the seam and up to the poles.
+TEST(Environment, IsSeenWithoutAJump) {
+  Image map = constantMap(16, 8, 1);
+  for (int y = 0; y < 8; ++y) map.at(0, y)[0] = 3;
+  const auto seen = [&](double azimuth) {
+    return environmentRadiance(map, {}, {std::sin(azimuth), 0.1, std::cos(azimuth)}).x;
+  };
+  EXPECT_NEAR(seen(0), 2, 1e-9);  // the border between the first column and the last
+  EXPECT_NEAR(seen(-kPi / 16), 3, 1e-9);
+  EXPECT_NEAR(seen(kPi / 16), 1, 1e-9);
+  EXPECT_NEAR(environmentRadiance(map, {}, {0, 1, 0}).y, 1, 1e-9);
+  EXPECT_NEAR(environmentRadiance(constantMap(1, 1, 2), {}, {0, -1, 0}).z, 2, 1e-9);
+}
+
 class ConeCounts : public testing::TestWithParam<int> {};
 
 // A sphere of radiance 1 has flux 4 pi, however it is cut.
