@@ -7,7 +7,7 @@ namespace glintmark {
 
 void placeBackground(Image& picture, const Scene& scene, const View& view) {
   const EnvironmentInfo& environment = scene.environment;
-  if (!environment.present) return;
+  if (environment.map == nullptr) return;
   const Camera camera = makeCamera(view, picture.width, picture.height);
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x) {

@@ -87,11 +87,11 @@ struct Material {
 /// An environment map already cut into cones is appended to `lights`; this remembers where from.
 struct EnvironmentInfo {
   bool present = false;
-  std::shared_ptr<const Image> map{};  // radiance, rgb, for what is seen behind the meshes
-  EnvironmentCut cut{};
   std::string file;  // empty: procedural sky
   int cone_count = 0;
-  std::string note{};  // what was changed in the map; empty: nothing
+  std::string note{};                  // what was changed in the map; empty: nothing
+  std::shared_ptr<const Image> map{};  // radiance, rgb, for what is seen behind the meshes
+  EnvironmentCut cut{};
 };
 
 struct PostEffects {

@@ -80,6 +80,31 @@ TEST(FrameRenderer, ScenesDecideTheSwitches) {
               config.diffuse && config.count_cells);
 }
 
+// 2^20 microdetails a uv: cells of 2^-10, of which 2^32 are 2^22 units of uv.
+TEST(FrameRenderer, CellsAreToldApartBeyond32BitsWhereUvAndDensityAsk) {
+  Scene scene = floorScene();
+  scene.materials[0].params.glints.density = 0x1p20f;
+  ShadingOptions options = smallOptions();
+  const auto isDeep = [&] { return configFor(scene.materials[0], scene, options, 16).deep_uv; };
+  EXPECT_FALSE(isDeep());
+  for (const glm::dvec2 far : {glm::dvec2(0x1p22, 0), glm::dvec2(0, -0x1p22)}) {
+    scene.mesh.uvs.back() = far;
+    options.method = GlintMethod::kZk16;
+    EXPECT_TRUE(isDeep());
+    options.method = GlintMethod::kKemppinen;  // its cells recur
+    EXPECT_FALSE(isDeep());
+  }
+  options.method = GlintMethod::kDistributed;
+  EXPECT_TRUE(isDeep());
+  scene.materials[0].params.glints.density = 0x1p10f;
+  EXPECT_FALSE(isDeep());
+  scene.mesh.uvs.back() = {1, 1};
+  scene.materials[0].params.glints.density = 0x1p50f;
+  EXPECT_TRUE(isDeep());
+  options.glints = false;
+  EXPECT_FALSE(isDeep());
+}
+
 TEST(FrameRenderer, HeatmapIsWithin8And64AndMatchesItsSummary) {
   const Scene scene = floorScene();
   for (const double angle_deg : {90.0, 10.0, 2.0}) {
