@@ -20,6 +20,7 @@
 #include "host/frame/shading_options.h"
 #include "host/ocl/device_clock.h"
 #include "host/ocl/switches.h"
+#include "host/raster/rasterizer.h"
 #include "host/report/metrics.h"
 #include "host/report/picture/aov.h"
 #include "host/report/picture/cryptomatte.h"
@@ -250,8 +251,11 @@ int renderPath(const CommandLine& line, const RenderOptions& options, Device& de
   return code;
 }
 
-void writePlanes(const PixelPlanes& planes, const Scene& scene, const std::string& file,
+// All planes, also those that no kernel of the frame reads.
+void writePlanes(const Scene& scene, const Camera& camera, int threads, const std::string& file,
                  PictureFacts facts) {
+  PixelPlanes planes;
+  Rasterizer(threads).render(scene.mesh, camera, scene.cull_back_faces, PlaneMask::all(), planes);
   std::vector<std::string> materials;
   for (const Material& material : scene.materials) materials.push_back(material.name);
   Image image = planesToImage(planes);
@@ -302,7 +306,8 @@ int runRender(const CommandLine& line, const RenderOptions& options) {
   const int code = judgePicture(radiance, scene, view);
   writeRendered(std::move(radiance), options, scene, view, factsOf(run));
   if (!options.aov_output.empty())
-    writePlanes(renderer.planes(), scene, options.aov_output, factsOf(run));
+    writePlanes(scene, makeCamera(view, size.width_px, size.height_px), common.threads,
+                options.aov_output, factsOf(run));
   printTimes(fmt::format("{}/{} {}x{}", scene.name, view.name, size.width_px, size.height_px),
              prepared, shaded, read.readback_ns, device.clock().timer());
   return code;

@@ -109,7 +109,7 @@ TEST(Render, PngAndPlanes) {
   const Image planes = readImage(folder / "planes.exr");
   EXPECT_EQ(planes.height, 37);
   for (const char* name :
-       {"material", "u.frac", "dudx", "dvdy", "N.Y", "uv.X", "crypto_material00.R"}) {
+       {"material", "u.frac", "dudx", "dvdy", "N.Y", "uv.X", "Z", "crypto_material00.R"}) {
     EXPECT_NE(std::ranges::find(planes.channel_names, name), planes.channel_names.end()) << name;
   }
 }
