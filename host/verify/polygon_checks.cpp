@@ -50,17 +50,34 @@ Finding oneSided(const CheckContext& context) {
   return finding;
 }
 
-// A point below a corner of a parallel rectangle of sides a and b at distance 1: the textbook's
+// Of a point below a corner of a parallel rectangle of sides a and b at distance 1: the textbook's
 // closed form (Howell, configuration B-3).
+double cornerFormFactor(double a, double b) {
+  const double ra = std::sqrt(1 + a * a), rb = std::sqrt(1 + b * b);
+  return (a / ra * std::atan(b / ra) + b / rb * std::atan(a / rb)) / (2 * kPi);
+}
+
 Finding parallelCorner(const CheckContext& context) {
   Finding finding(kFormFactorTolerance);
   for (const auto& [a, b] : {std::pair{1.0, 1.0}, {0.1, 3.0}, {20.0, 0.5}, {100.0, 100.0}}) {
-    const double ra = std::sqrt(1 + a * a), rb = std::sqrt(1 + b * b);
-    const double exact = (a / ra * std::atan(b / ra) + b / rb * std::atan(a / rb)) / (2 * kPi);
-    finding.add(std::abs(
-        lightAtOrigin(context, polygonLight(parallelRectangle(a / 2, b / 2, 1, a, b)), false) -
-        exact));
+    const AreaLight light = polygonLight(parallelRectangle(a / 2, b / 2, 1, a, b));
+    finding.add(std::abs(lightAtOrigin(context, light, false) - cornerFormFactor(a, b)));
   }
+  return finding;
+}
+
+// Squares whose centre is overhead: there is nothing to clip, and the form that does not clip is
+// exact along the axis of the light.
+Finding cliplessOverhead(const CheckContext& context) {
+  Finding finding(kFormFactorTolerance);
+  for (const double side : {0.1, 0.7, 2.0, 9.0, 50.0})
+    for (const bool specular : {false, true}) {
+      AreaLightProbe probe = identityProbe(polygonLight(parallelRectangle(0, 0, 1, side, side)),
+                                           specular, context.lanes);
+      probe.clipless = true;
+      finding.add(std::abs(lightPoints(context.bench, probe, {HandMadePoint{}})[0].x -
+                           4 * cornerFormFactor(side / 2, side / 2)));
+    }
   return finding;
 }
 
@@ -132,6 +149,7 @@ std::vector<Check> polygonChecks() {
   checks.insert(checks.end(),
                 {{"polygon/one_sided", "error of form factors", oneSided},
                  {"polygon/parallel_corner", "error of form factors", parallelCorner},
+                 {"polygon/clipless_overhead", "error of form factors", cliplessOverhead},
                  {"polygon/standing_on_horizon", "error of form factors", standing},
                  {"polygon/2pi_steradians", "error of form factors", hemisphere},
                  {"polygon/1e-10_to_1e-6_sr", "relative error",
