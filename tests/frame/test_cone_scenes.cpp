@@ -54,7 +54,7 @@ TEST_P(ConeScenes, NoPixelIsBrighterThanTheTruth) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ConeScenes,
-                         testing::Values("sand", "rough_metal", "glitter", "brushed",
+                         testing::Values("sand", "rough_metal", "glitter", "hero", "brushed",
                                          "circular_brushing", "car", "snow", "screen_plane"),
                          [](const auto& scene) { return scene.param; });
 
