@@ -80,6 +80,9 @@ inline constexpr double kCrossingShare = 6e-3;
 /// a cone wider than a lobe of any roughness, its corner falls between the points.
 inline constexpr double kNarrowConeTolerance = 0.02, kWideConeTolerance = 0.2;
 inline constexpr double kConeNarrow_deg = 45;
+/// The same at views of less than 0.1 degrees above the surface, which are raised to a twentieth
+/// of a degree: narrow lobes and lights change by 6 % of the brightest on the way there.
+inline constexpr double kSilhouetteCone = 0.08;
 /// The share of reflecting microdetails under a cone, relative, up to a half-angle of 20 degrees
 /// and beyond. A microdetail's own share is taken for that of an ellipse, which a cone's half
 /// vectors fill where neither the horizon cuts them nor a grazing view bends them.
