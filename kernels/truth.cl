@@ -151,8 +151,10 @@ WIDE vfloat3 shadeSample(const SurfaceSample* sample, constant const FrameParams
   for (uint i = 0; i < frame->light_count; ++i) {
     const vfloat3 light = toLocal(sample->frame, sampleCone(sample, &lights[i], i));
     LightLobe lobe = pointLobe(light, sample->view, lambda_view, material);
+#if NORMAL_MAP
     lobe.specular = sample->visible ? lobe.specular : (vfloat)(0.0f);
     lobe.schlick = sample->visible ? lobe.schlick : (vfloat)(0.0f);
+#endif
     addLight(lobe, ratio, share, &material->surface, &lights[i], &sum);
   }
   return sum;
