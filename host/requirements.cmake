@@ -9,7 +9,7 @@ endmacro()
 
 foreach(requirement "glm libglm-dev" "TBB libtbb-dev" "fmt libfmt-dev" "hwy libhwy-dev"
         "Boost libboost-dev" "Ceres libceres-dev" "nlohmann_json nlohmann-json3-dev"
-        "assimp libassimp-dev" "tomlplusplus libtomlplusplus-dev")
+        "assimp libassimp-dev" "OpenEXR libopenexr-dev" "tomlplusplus libtomlplusplus-dev")
   separate_arguments(words UNIX_COMMAND "${requirement}")
   list(GET words 0 package)
   list(GET words 1 debian)

@@ -9,6 +9,8 @@
 #include <tuple>
 #include <utility>
 
+#include "host/codec/exr_image.h"
+
 namespace glintmark {
 namespace {
 
@@ -65,6 +67,7 @@ OIIO::ImageSpec readingHints() {
 class OpenImageIoCodec : public ImageCodec {
  public:
   std::unique_ptr<StoredImage> open(const std::string& path, std::string& fault) const override {
+    if (auto sampled = openSampledExr(path)) return sampled;
     OIIO::geterror();
     const OIIO::ImageSpec hints = readingHints();
     auto input = OIIO::ImageInput::open(path, &hints);
