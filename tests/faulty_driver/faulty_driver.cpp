@@ -156,6 +156,14 @@ cl_int clGetKernelArgInfo(cl_kernel kernel, cl_uint index, cl_kernel_arg_info fa
   return REAL(clGetKernelArgInfo)(kernel, index, fact, bytes, out, needed);
 }
 
+cl_int clBuildProgram(cl_program program, cl_uint count, const cl_device_id* devices,
+                      const char* options, void(CL_CALLBACK* notify)(cl_program, void*),
+                      void* user) {
+  if (const auto text = valueOf("build"); text && options && std::strstr(options, text->c_str()))
+    die();
+  return REAL(clBuildProgram)(program, count, devices, options, notify, user);
+}
+
 cl_int clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kernel, cl_uint dimensions,
                               const size_t* offset, const size_t* global, const size_t* local,
                               cl_uint wait_count, const cl_event* wait_list, cl_event* event) {
