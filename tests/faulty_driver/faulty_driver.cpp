@@ -172,6 +172,8 @@ cl_int clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kernel, cl_uint 
   if (asked("exit", name)) _exit(7);
   while (asked("stall", name)) pause();
   if (asked("resources", name)) return CL_OUT_OF_RESOURCES;
+  if (const size_t most = numberOf("global"); most > 0 && global && global[0] > most)
+    return CL_INVALID_GLOBAL_WORK_SIZE;
   for (const char* limit : {"groups", "launches"})
     if (numberOf(limit) > 0 && local && local[0] > numberOf(limit))
       return CL_INVALID_WORK_GROUP_SIZE;
