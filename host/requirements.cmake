@@ -31,6 +31,11 @@ find_library(GLINTMARK_ZYDIS_LIBRARY Zydis)
 find_path(OPENIMAGEIO_INCLUDE_DIR OpenImageIO/imageio.h)
 find_library(OPENIMAGEIO_LIBRARY OpenImageIO)
 find_library(OPENIMAGEIO_UTIL_LIBRARY OpenImageIO_Util)
+# By hand, since Debian's ImathConfig.cmake, which OpenEXR's asks for, complains of a Python library.
+find_path(OPENEXR_INCLUDE_DIR OpenEXR/ImfMultiPartInputFile.h)
+find_path(IMATH_INCLUDE_DIR ImathBox.h PATH_SUFFIXES Imath)
+find_library(OPENEXR_LIBRARY OpenEXR)
+find_library(IMATH_LIBRARY Imath)
 find_path(GLINTMARK_CLI11_INCLUDE CLI/CLI.hpp DOC "CLI11")
 find_file(GLINTMARK_CHART_JS NAMES chart.min.js chart.umd.js
           PATHS /usr/share/javascript/chart.js /usr/share/nodejs/chart.js/dist NO_DEFAULT_PATH
@@ -54,6 +59,9 @@ foreach(file "OPENCL_INCLUDE|CL/opencl.hpp|opencl-clhpp-headers" "OPENCL_LIBRARY
 endforeach()
 foreach(variable OPENIMAGEIO_INCLUDE_DIR OPENIMAGEIO_LIBRARY OPENIMAGEIO_UTIL_LIBRARY)
   glintmark_need(file "of OpenImageIO, ${variable}" libopenimageio-dev ${variable})
+endforeach()
+foreach(variable OPENEXR_INCLUDE_DIR IMATH_INCLUDE_DIR OPENEXR_LIBRARY IMATH_LIBRARY)
+  glintmark_need(file "of OpenEXR, ${variable}" libopenexr-dev ${variable})
 endforeach()
 if(GLINTMARK_TESTS)
   find_package(GTest QUIET)

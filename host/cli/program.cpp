@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "host/cli/command_line.h"
+#include "host/core/progress.h"
 #include "host/report/record/machine.h"
 #include "host/report/record/run_info.h"
 
@@ -74,6 +75,7 @@ int runProgram(int argc, const char* const* argv) {
   if (const std::optional<int> done = parser.parse(argc, argv)) return *done;
   // Threads beyond a control group's quota would only wait for each other.
   if (line.common.threads == 0) line.common.threads = usableCores();
+  if (line.common.quiet) Progress::silenceAll();
   return line.action();
 }
 

@@ -9,6 +9,8 @@
 #include <tuple>
 #include <utility>
 
+#include "host/codec/exr_image.h"
+
 namespace glintmark {
 namespace {
 
@@ -33,7 +35,7 @@ class OpenedImage : public StoredImage {
         std::tie(spec.x, spec.y, spec.width, spec.height, spec.depth);
     std::tie(part.full_x, part.full_y, part.full_width, part.full_height) =
         std::tie(spec.full_x, spec.full_y, spec.full_width, spec.full_height);
-    part.orientation = spec.get_int_attribute("Orientation", 1);
+    part.orientation = orientationOf(spec);
     if (spec.format == OIIO::TypeDesc::UINT8) part.step = 1.0f / 255;
     if (spec.format == OIIO::TypeDesc::UINT16) part.step = 1.0f / 65535;
     part.deep = spec.deep;
@@ -51,6 +53,16 @@ class OpenedImage : public StoredImage {
   }
 
  private:
+  // OpenImageIO takes the two quarter turns of Radiance files for each other: "+X M +Y N" is a
+  // picture that lies turned clockwise. [Ward, "Radiance File Formats"]
+  int orientationOf(const OIIO::ImageSpec& spec) const {
+    constexpr int kClockwise = 6, kCounterClockwise = 8;
+    const int orientation = spec.get_int_attribute("Orientation", 1);
+    if (std::string_view(input_->format_name()) != "hdr") return orientation;
+    if (orientation == kClockwise) return kCounterClockwise;
+    return orientation == kCounterClockwise ? kClockwise : orientation;
+  }
+
   std::unique_ptr<OIIO::Filesystem::IOMemReader> memory_;  // outlives its reader
   std::unique_ptr<OIIO::ImageInput> input_;
 };
@@ -65,6 +77,7 @@ OIIO::ImageSpec readingHints() {
 class OpenImageIoCodec : public ImageCodec {
  public:
   std::unique_ptr<StoredImage> open(const std::string& path, std::string& fault) const override {
+    if (auto sampled = openSampledExr(path)) return sampled;
     OIIO::geterror();
     const OIIO::ImageSpec hints = readingHints();
     auto input = OIIO::ImageInput::open(path, &hints);

@@ -1,6 +1,7 @@
 // What this program has OpenImageIO do, behind an interface that a module implements. Faults come
 // back as sentences: exceptions of the module's own libraries stay in it.
 #pragma once
+#include <array>
 #include <memory>
 #include <optional>
 #include <span>
@@ -19,6 +20,7 @@ struct StoredPart {
   int orientation = 1;                                          // one of the eight of TIFF and Exif
   float step = 0;  // between neighbouring values in [0, 1] of whole numbers; 0: floats
   bool deep = false;
+  std::array<float, 3> luminance = {0.2126f, 0.7152f, 0.0722f};  // of red, green and blue
 };
 
 /// An image file that is open to be read.

@@ -115,12 +115,17 @@ std::optional<std::string> DiskCache::load(const std::string& name, const std::s
 
 void DiskCache::store(const std::string& name, const std::string& key,
                       const std::string& binary) const {
-  if (folder_.empty() || binary.empty()) return;
+  store(name, key, binary, {});
+}
+
+void DiskCache::store(const std::string& name, const std::string& key, std::string_view first,
+                      std::string_view second) const {
+  if (folder_.empty() || first.empty()) return;
   std::string head(kMagic);
   append(head, key.size());
   head += key;
-  append(head, binary.size());
-  append(head, fnv1a(binary));
+  append(head, first.size() + second.size());
+  append(head, fnv1a(second, fnv1a(first)));
 
   std::error_code error;
   fs::create_directories(folder_.parent_path(), error);
@@ -128,7 +133,7 @@ void DiskCache::store(const std::string& name, const std::string& key,
   if (mkdir(folder_.c_str(), S_IRWXU) == 0) chmod(folder_.c_str(), S_IRWXU);
   if (!isOurs()) return;
   try {
-    writeFile(entryPath(name), {head, binary}, Durability::kUnsynced);
+    writeFile(entryPath(name), {head, first, second}, Durability::kUnsynced);
   } catch (const Error&) {
     // The next run computes it again.
   }

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace glintmark {
 
@@ -26,6 +27,9 @@ class DiskCache {
   std::optional<std::string> load(const std::string& name, const std::string& key) const;
   /// Stores through a temporary file and a rename, so that a reader never sees half an entry.
   void store(const std::string& name, const std::string& key, const std::string& binary) const;
+  /// The same of a binary in two pieces, which may be gigabytes.
+  void store(const std::string& name, const std::string& key, std::string_view first,
+             std::string_view second) const;
 
  private:
   /// Is there a folder, and ours? Takes it from group and others where it is open to them.

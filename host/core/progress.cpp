@@ -11,6 +11,7 @@ namespace glintmark {
 namespace {
 
 constexpr std::size_t kMaxLineLength = 79;
+bool all_are_silent = false;
 
 // A wrapped line could not be overwritten.
 std::size_t lineLength() {
@@ -21,7 +22,11 @@ std::size_t lineLength() {
 
 }  // namespace
 
-Progress::Progress(bool quiet) : active_(!quiet && isatty(STDERR_FILENO) == 1) {}
+Progress::Progress(bool quiet) : active_(!quiet && !all_are_silent && isatty(STDERR_FILENO) == 1) {}
+
+void Progress::silenceAll() {
+  all_are_silent = true;
+}
 
 Progress::~Progress() {
   clear();

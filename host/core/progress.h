@@ -13,6 +13,9 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
+  /// Every Progress from now on is silent: --quiet, for those of functions that are not told of it.
+  static void silenceAll();
+
   /// Replaces the line by "[done/total] what"; `total` 0 leaves the counter out.
   void show(int done, int total, const std::string& what);
   /// Removes the line, so that other output can follow.

@@ -10,6 +10,7 @@
 #include "host/core/trace.h"
 #include "host/experiment/all_tables.h"
 #include "host/experiment/interrupt.h"
+#include "host/experiment/survival.h"
 #include "host/report/record/score.h"
 #include "host/report/record/trace_file.h"
 
@@ -72,9 +73,10 @@ std::vector<std::string> benchTableNames() {
   return namesOf(benchTables());
 }
 
-int runBench(const Session& session, const std::vector<std::string>& names,
-             const BenchOptions& options) {
-  const std::vector<BenchTable> tables = chooseTables(names, options);
+namespace {
+
+int measureTables(const Session& session, const std::vector<BenchTable>& tables,
+                  const BenchOptions& options) {
   const InterruptGuard guard;
   if (!options.trace.empty()) {
     requireWritableFile(options.trace);
@@ -90,6 +92,7 @@ int runBench(const Session& session, const std::vector<std::string>& names,
     if (!options.trace.empty()) writeTrace(options.trace, run.info());
     throw;
   }
+  requireMeasured(run.records().size());
   std::vector<std::string> texts;
   texts.reserve(tables.size());
   for (const BenchTable& table : tables) texts.push_back(table.text(run));
@@ -98,6 +101,18 @@ int runBench(const Session& session, const std::vector<std::string>& names,
   for (const BenchTable& table : tables) scores += scoreLine(table.spec, run.records());
   return run.finish(
       fmt::format("{}{}{}", fmt::join(texts, "\n"), scores.empty() ? "" : "\n", scores));
+}
+
+}  // namespace
+
+int runBench(const Session& session, const std::vector<std::string>& names,
+             const BenchOptions& options) {
+  const std::vector<BenchTable> tables = chooseTables(names, options);
+  return runSurviving(session.common.quiet, [&](bool first) {
+    BenchOptions own = options;
+    own.resume = options.resume || !first;
+    return measureTables(session, tables, own);
+  });
 }
 
 }  // namespace glintmark

@@ -11,6 +11,7 @@
 #include "host/core/trace.h"
 #include "host/experiment/interrupt.h"
 #include "host/experiment/run_inputs.h"
+#include "host/experiment/survival.h"
 #include "host/ocl/device_clock.h"
 #include "host/report/record/records.h"
 
@@ -62,6 +63,29 @@ Repetitions::Clock::time_point shareOf(Repetitions::Clock::time_point until, std
   return now + (until - now) / static_cast<std::ptrdiff_t>(std::max<std::size_t>(shares, 1));
 }
 
+// Of the time that the options give, what processes that died have left; 0: it has no end.
+double timeLeft(const BenchOptions& options) {
+  constexpr double kNext_s = 1e-9;
+  if (options.max_time_s == 0) return 0;
+  return std::max(kNext_s, options.max_time_s - secondsOfLostProcesses());
+}
+
+std::string fullName(const std::string& table, const std::string& case_name) {
+  return table + " " + case_name;
+}
+
+bool isLost(const std::string& name) {
+  return std::ranges::find(lostCases(), name, &LostCase::name) != lostCases().end();
+}
+
+// "zk16 snow/steep is lost: ...", a line each.
+std::string lostText() {
+  std::string text;
+  for (const LostCase& lost : lostCases())
+    text += fmt::format("\n{} is lost: its process {}.\n", lost.name, lost.how);
+  return text;
+}
+
 // The folder, once it is known that the results can be written.
 std::filesystem::path checkedFolder(const BenchOptions& options) {
   if (options.reps < 1 || options.reps > 10000)
@@ -111,7 +135,7 @@ BenchRun::BenchRun(const Session& session, const BenchOptions& options)
       info_(describeRunWithPeaks(session, options, device_, cache_)),
       key_(measurementKey(session.common, options, info_.width)),
       log_(openLog(options, info_)),
-      until_(inSeconds(options.max_time_s)),
+      until_(inSeconds(timeLeft(options))),
       table_until_(until_),
       case_until_(until_) {
   removeAbandonedFiles(folder_);
@@ -131,7 +155,9 @@ void BenchRun::measureCases(const std::string& table, const std::vector<std::str
                             const std::function<std::vector<Record>(const std::string&)>& measure) {
   Progress progress(session_.common.quiet);
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    progress.show(static_cast<int>(i), static_cast<int>(cases.size()), table + " " + cases[i]);
+    const std::string name = fullName(table, cases[i]);
+    if (isLost(name)) continue;
+    progress.show(static_cast<int>(i), static_cast<int>(cases.size()), name);
     std::vector<Record> measured = loggedCase(table, cases[i], metrics);
     if (measured.empty() && Repetitions::Clock::now() >= until_) {
       if (records_.empty())
@@ -149,6 +175,7 @@ void BenchRun::measureCases(const std::string& table, const std::vector<std::str
       };
       try {
         stopIfInterrupted();
+        const CaseAtHand at_hand(name);
         const TraceScope scope("case", isTracing() ? table + "/" + cases[i] : std::string());
         const Timer timer = device_.clock().timer();
         measured = measure(cases[i]);
@@ -230,6 +257,7 @@ int BenchRun::finish(const std::string& tables) {
   if (left_out_ > 0)
     text += fmt::format("\n{} cases are left out: the {} s of --max-time were over.\n", left_out_,
                         options_.max_time_s);
+  text += lostText();
   if (!info_.busy.empty()) text += "\nThe machine was busy:\n" + onLines(info_.busy);
   const std::string json = toJson({info_, records_}), csv = toCsv(records_);
   try {
@@ -243,7 +271,8 @@ int BenchRun::finish(const std::string& tables) {
                             error.what(), (folder_ / "records.jsonl").string()));
   }
   fmt::print("{}\nwritten to {}\n", text, folder_.string());
-  return std::ranges::all_of(records_, &Record::valid) ? kExitDone : kExitCheckFailed;
+  const bool whole = std::ranges::all_of(records_, &Record::valid) && lostCases().empty();
+  return whole ? kExitDone : kExitCheckFailed;
 }
 
 std::vector<std::string> selectNames(const std::vector<std::string>& known,

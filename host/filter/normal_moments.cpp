@@ -1,7 +1,10 @@
 #include "host/filter/normal_moments.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "host/core/free_memory.h"
 #include "host/filter/interpolated_normals.h"
 
 namespace glintmark {
@@ -22,8 +25,13 @@ template <class Channels>
 MipTexels mipMoments(const NormalMap& map, bool between_texels, int channels, int vectors,
                      const Channels& write) {
   checkNormalMap(map);
+  // Both chains, the image that the finer one comes from, and the packed texels.
+  const bool finer = between_texels && canInterpolate(map);
+  const std::size_t texels = map.normals.size() * (finer ? kSurfaceSamples * kSurfaceSamples : 1);
+  requireMemory(texels * sizeof(float) * (channels + (finer ? 3 : vectors * 4)) * 4 / 3,
+                fmt::format("the mip chain of map '{}'", map.name));
   MipChain chain = momentChain(map, channels, write);
-  if (between_texels && canInterpolate(map)) {
+  if (finer) {
     MipChain between = momentChain(interpolatedNormals(map, kSurfaceSamples), channels, write);
     for (std::size_t level = 1; level < chain.levels.size(); ++level)
       chain.levels[level] = std::move(between.levels[level + 1]);

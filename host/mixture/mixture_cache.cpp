@@ -38,6 +38,24 @@ bool isSane(const Header& header) {
          header.lobes >= 1 && header.lobes <= kMaxLobes;
 }
 
+// What stands before the texels.
+std::string headBytes(const NormalMixtures& mixtures) {
+  const MipTexture& layout = mixtures.moments.layout;
+  const Header header{.width_px = static_cast<std::int32_t>(layout.width),
+                      .height_px = static_cast<std::int32_t>(layout.height),
+                      .lobes = mixtures.lobes,
+                      .fit_ms = mixtures.fit_ms};
+  std::string bytes;
+  append(bytes, &header, 1);
+  append(bytes, mixtures.levels.data(), mixtures.levels.size());
+  return bytes;
+}
+
+std::string_view texelBytes(const NormalMixtures& mixtures) {
+  const std::vector<float4>& texels = mixtures.moments.texels;
+  return {reinterpret_cast<const char*>(texels.data()), texels.size() * sizeof(float4)};
+}
+
 }  // namespace
 
 std::string mixtureKey(const NormalMap& map, const MixtureOptions& options) {
@@ -54,18 +72,10 @@ std::string mixtureKey(const NormalMap& map, const MixtureOptions& options) {
 }
 
 std::string mixtureBytes(const NormalMixtures& mixtures) {
-  const MipTexels& moments = mixtures.moments;
-  const Header header{.width_px = static_cast<std::int32_t>(moments.layout.width),
-                      .height_px = static_cast<std::int32_t>(moments.layout.height),
-                      .lobes = mixtures.lobes,
-                      .fit_ms = mixtures.fit_ms};
-  std::string bytes;
-  bytes.reserve(sizeof header + mixtures.levels.size() * sizeof(MixtureLevelReport) +
-                moments.texels.size() * sizeof(float4));
-  append(bytes, &header, 1);
-  append(bytes, mixtures.levels.data(), mixtures.levels.size());
-  append(bytes, moments.texels.data(), moments.texels.size());
-  return bytes;
+  const std::string_view texels = texelBytes(mixtures);
+  std::string bytes = headBytes(mixtures);
+  bytes.reserve(bytes.size() + texels.size());
+  return bytes.append(texels);
 }
 
 std::optional<NormalMixtures> mixturesFromBytes(std::string_view bytes) {
@@ -97,7 +107,8 @@ CachedMixtures cachedNormalMixtures(const NormalMap& map, const MixtureOptions& 
     if (auto mixtures = mixturesFromBytes(*bytes)) return {std::move(*mixtures), true};
   }
   NormalMixtures mixtures = fitNormalMixtures(map, options, progress);
-  cache.store(key, key, mixtureBytes(mixtures));
+  // In pieces, since a copy of a large map's would not fit the memory.
+  cache.store(key, key, headBytes(mixtures), texelBytes(mixtures));
   return {std::move(mixtures), false};
 }
 

@@ -10,7 +10,9 @@
 #include <memory>
 
 #include "host/core/error.h"
+#include "host/core/free_memory.h"
 #include "host/core/stopwatch.h"
+#include "host/filter/interpolated_normals.h"
 #include "host/mixture/mixture_em.h"
 #include "host/mixture/mixture_fit_types.h"
 #include "host/mixture/mixture_level.h"
@@ -25,6 +27,8 @@ namespace {
 constexpr std::size_t kTaskNormals = 16384;
 // Blocks per task.
 constexpr int kGrain = 8;
+// Normals between two calls of the progress, about half a second of one processor.
+constexpr double kNormalsPerCall = 1 << 22;
 
 // Sums over the texels of a level.
 struct Tally {
@@ -105,7 +109,6 @@ class MixtureFit {
     report.width_px = geometry.width(), report.height_px = geometry.height();
     report.mean_iterations += tally.iterations / texels;
     report.converged_share = tally.converged / texels;
-    advance();
   }
 
   void finishLevel(int level) {
@@ -118,12 +121,13 @@ class MixtureFit {
     result_.levels[level].log_likelihood =
         tally.log_likelihood /
         (geometry.normalsPerTexel() * static_cast<double>(geometry.texelCount()));
-    advance();
   }
 
-  void advance() {
-    ++steps_done_;
-    if (progress_) progress_(steps_done_ / ((options_.passes + 1.0) * level_count_));
+  // By a share of one sweep over a level; levels take about as long as each other.
+  void advance(double share) {
+    done_ += share;
+    const double all = (options_.passes * options_.sweeps + 1.0) * level_count_;
+    if (progress_) progress_(std::min(1.0, done_ / all));
   }
 
   // Calls `run` for every block of the batch, a texel a block where rows are long; adds up tallies
@@ -132,15 +136,24 @@ class MixtureFit {
   Tally overBlocks(const MixtureLevel& geometry, const TexelBatch& batch, const Run& run) {
     const int size = geometry.hasLongRows() ? 1 : kBlockTexels;
     const int blocks = (batch.count + size - 1) / size;
-    return tbb::parallel_deterministic_reduce(
-        tbb::blocked_range<int>(0, blocks, geometry.hasLongRows() ? 1 : kGrain), Tally{},
-        [&](const tbb::blocked_range<int>& range, Tally tally) {
-          for (int b = range.begin(); b < range.end(); ++b) {
-            tally += run(BlockTexels{batch, b * size, std::min(size, batch.count - b * size)});
-          }
-          return tally;
-        },
-        [](Tally a, const Tally& b) { return a += b; });
+    const int per_call = std::max(
+        1, static_cast<int>(kNormalsPerCall / std::max(1.0, size * geometry.normalsPerTexel())));
+    Tally sum;
+    for (int first = 0; first < blocks; first += std::min(per_call, blocks - first)) {
+      const int last = first + std::min(per_call, blocks - first);
+      sum += tbb::parallel_deterministic_reduce(
+          tbb::blocked_range<int>(first, last, geometry.hasLongRows() ? 1 : kGrain), Tally{},
+          [&](const tbb::blocked_range<int>& range, Tally tally) {
+            for (int b = range.begin(); b < range.end(); ++b) {
+              tally += run(BlockTexels{batch, b * size, std::min(size, batch.count - b * size)});
+            }
+            return tally;
+          },
+          [](Tally a, const Tally& b) { return a += b; });
+      advance((last - first) * static_cast<double>(size) /
+              static_cast<double>(geometry.texelCount()));
+    }
+    return sum;
   }
 
   // E-step of the block's texels.
@@ -329,7 +342,7 @@ class MixtureFit {
   const FittedNormals normals_;
   NormalMixtures result_;
   int level_count_ = 0;
-  int steps_done_ = 0;
+  double done_ = 0;  // sweeps over levels
   tbb::enumerable_thread_specific<Scratch> scratch_;
 };
 
@@ -355,6 +368,15 @@ NormalMixtures fitNormalMixtures(const NormalMap& map, const MixtureOptions& opt
                                  const std::function<void(double)>& progress) {
   checkMixtureOptions(options);
   checkNormalMap(map);
+  // The chain of mixtures, projected normals, and what lies between those.
+  const std::size_t between =
+      options.surface == MixtureSurface::kInterpolated && canInterpolate(map)
+          ? kSurfaceSamples * kSurfaceSamples
+          : 0;
+  requireMemory(map.normals.size() *
+                    (options.lobes * sizeof(float4) * 4 / 3 + (1 + between) * sizeof(glm::vec2)),
+                fmt::format("a fit of {} lobes to each of the {}x{} texels of map '{}'",
+                            options.lobes, map.width_px, map.height_px, map.name));
   tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic : options.threads);
   return arena.execute([&] { return MixtureFit(map, options, progress).run(); });
 }

@@ -51,8 +51,14 @@ bool mayBeTooLargeAGroup(cl_int code) {
          code == CL_OUT_OF_RESOURCES;
 }
 
-// Enqueues and waits; `local_size` divides `global_size`.
-LaunchTimes launchOnce(Kernel::Impl& impl, std::size_t global_size, std::size_t local_size) {
+// Some drivers take no range as large as they should, 32-bit devices none beyond 2^32 work-items.
+bool isTooLargeARange(cl_int code) {
+  return code == CL_INVALID_GLOBAL_WORK_SIZE;
+}
+
+// Enqueues and waits; `local_size` divides `global_size`, the number of work-items from `first` on.
+LaunchTimes launchOnce(Kernel::Impl& impl, std::size_t first, std::size_t global_size,
+                       std::size_t local_size) {
   LaunchTimes times;
   const std::pair<std::size_t, bool> kind = {local_size, global_size < kSmallGridItems};
   times.first_enqueue = !impl.launched.contains(kind);
@@ -60,14 +66,32 @@ LaunchTimes launchOnce(Kernel::Impl& impl, std::size_t global_size, std::size_t 
   const std::int64_t trace_begin_ns = isTracing() ? traceNowNs() : 0;
   const Stopwatch watch;
   cl::Event event;
-  impl.queue.enqueueNDRangeKernel(impl.kernel, cl::NullRange, cl::NDRange(global_size),
-                                  cl::NDRange(local_size), nullptr, &event);
+  impl.queue.enqueueNDRangeKernel(impl.kernel, first > 0 ? cl::NDRange(first) : cl::NullRange,
+                                  cl::NDRange(global_size), cl::NDRange(local_size), nullptr,
+                                  &event);
   event.wait();
   times.wall_ns = watch.elapsedNs();
   times.event_ns = impl.clock->launchNs(eventTimes(event), times.wall_ns);
   if (isTracing()) traceEvent("kernel", impl.name, event, trace_begin_ns, *impl.clock);
   impl.launched.insert(kind);
   if (times.first_enqueue) impl.first_enqueue_ns += times.wall_ns;
+  return times;
+}
+
+// In halves where the driver refuses the whole: kernels know of their range by get_global_id alone.
+LaunchTimes launchRange(Kernel::Impl& impl, std::size_t first, std::size_t global_size,
+                        std::size_t local_size) {
+  try {
+    return launchOnce(impl, first, global_size, local_size);
+  } catch (const cl::Error& error) {
+    if (global_size <= local_size || !isTooLargeARange(error.err())) throw;
+  }
+  const std::size_t half = (global_size / local_size + 1) / 2 * local_size;
+  LaunchTimes times = launchRange(impl, first, half, local_size);
+  const LaunchTimes rest = launchRange(impl, first + half, global_size - half, local_size);
+  times.event_ns += rest.event_ns;
+  times.wall_ns += rest.wall_ns;
+  times.first_enqueue = times.first_enqueue || rest.first_enqueue;
   return times;
 }
 
@@ -86,7 +110,7 @@ LaunchTimes Kernel::launch(std::span<const KernelArg> args, std::size_t global_s
     setArgs(*impl_, args);
     for (;; group = fittingLocalSize(local_size, group / 2)) {
       try {
-        times = launchOnce(*impl_, items, group);
+        times = launchRange(*impl_, 0, items, group);
         break;
       } catch (const cl::Error& error) {
         if (group == 1 || !mayBeTooLargeAGroup(error.err())) throw;

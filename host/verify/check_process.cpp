@@ -19,6 +19,7 @@
 #include "host/core/error.h"
 #include "host/core/stopwatch.h"
 #include "host/experiment/interrupt.h"
+#include "host/experiment/survival.h"
 #include "host/verify/check_result_json.h"
 
 namespace glintmark {
@@ -87,11 +88,6 @@ void serve(const std::vector<Check>& checks, const CheckProcess::Open& open, int
   }
   std::fflush(nullptr);
   _exit(kExitDone);  // no destructors: what the parent made is the parent's
-}
-
-std::string howItEnded(int status) {
-  if (!WIFSIGNALED(status)) return fmt::format("ended with exit code {}", WEXITSTATUS(status));
-  return fmt::format("ended by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)));
 }
 
 }  // namespace

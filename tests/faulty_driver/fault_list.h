@@ -14,7 +14,9 @@
 //   memory=BYTES      the memory of a device, a quarter of it at most in one buffer
 //   groups=N          devices and kernels take work-groups of at most N
 //   launches=N        they say otherwise, but larger groups are refused when launched
+//   global=N          launches of more than N work-items are refused
 //   no_arg_info       parameters of kernels have no names
+//   build=TEXT        the process dies when a program is built whose options hold TEXT
 //   resources=KERNEL  launches of it fail with CL_OUT_OF_RESOURCES
 //   crash=KERNEL      the process dies at its launch
 //   exit=KERNEL       the process ends with exit code 7 at its launch

@@ -156,6 +156,14 @@ cl_int clGetKernelArgInfo(cl_kernel kernel, cl_uint index, cl_kernel_arg_info fa
   return REAL(clGetKernelArgInfo)(kernel, index, fact, bytes, out, needed);
 }
 
+cl_int clBuildProgram(cl_program program, cl_uint count, const cl_device_id* devices,
+                      const char* options, void(CL_CALLBACK* notify)(cl_program, void*),
+                      void* user) {
+  if (const auto text = valueOf("build"); text && options && std::strstr(options, text->c_str()))
+    die();
+  return REAL(clBuildProgram)(program, count, devices, options, notify, user);
+}
+
 cl_int clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kernel, cl_uint dimensions,
                               const size_t* offset, const size_t* global, const size_t* local,
                               cl_uint wait_count, const cl_event* wait_list, cl_event* event) {
@@ -164,6 +172,8 @@ cl_int clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kernel, cl_uint 
   if (asked("exit", name)) _exit(7);
   while (asked("stall", name)) pause();
   if (asked("resources", name)) return CL_OUT_OF_RESOURCES;
+  if (const size_t most = numberOf("global"); most > 0 && global && global[0] > most)
+    return CL_INVALID_GLOBAL_WORK_SIZE;
   for (const char* limit : {"groups", "launches"})
     if (numberOf(limit) > 0 && local && local[0] > numberOf(limit))
       return CL_INVALID_WORK_GROUP_SIZE;

@@ -28,7 +28,7 @@ TEST_P(Limits, ThePictureIsTheSame) {
 
 INSTANTIATE_TEST_SUITE_P(All, Limits,
                          testing::Values("groups=1", "groups=12", "groups=48", "launches=16",
-                                         "launches=1", "zero=groups", "zero=memory",
+                                         "launches=1", "global=300", "zero=groups", "zero=memory",
                                          "memory=8000000", "no_arg_info",
                                          "refuse=unified refuse=clock refuse=cache",
                                          "zero=units zero=clock", "platforms=ghost"),
@@ -52,7 +52,7 @@ INSTANTIATE_TEST_SUITE_P(All, PoclGroups, testing::Values("1", "12", "32", "48")
 
 TEST(Info, EndsOnEveryOddDevice) {
   for (const char* faults : {"groups=1", "groups=12", "zero=memory", "memory=8000000", "launches=8",
-                             "zero=units zero=clock zero=vector zero=groups",
+                             "global=70000", "zero=units zero=clock zero=vector zero=groups",
                              "refuse=unified refuse=timer refuse=local"}) {
     const ProcessResult result = runFaulty({"info", "--timer", "wall"}, faults);
     EXPECT_EQ(result.exit_code, 0) << faults << ": " << result.err;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "host/report/record/records.h"
 #include "tests/faulty_driver/faulty.h"
 
 namespace glintmark {
@@ -160,6 +161,61 @@ TEST(Bench, KeepsRecordsAndTraceAtARequestToEnd) {
   EXPECT_EQ(result.exit_code, 143) << result.err;
   EXPECT_NE(result.err.find("--resume carries on"), std::string::npos) << result.err;
   EXPECT_FALSE(Json::parse(readFile(folder / "trace.json"))["traceEvents"].empty());
+}
+
+// Its programs of four lanes alone make the compiler die: the others are measured, and what was
+// lost is all that is left for a sound driver.
+TEST(Bench, ACompilerThatDiesCostsTheCaseAtHand) {
+  const TempFolder folder;
+  const std::vector<std::string> arguments = {"scale",  "screen_plane", "--axis", "lanes",
+                                              "--size", "64x36",        "--reps", "1",
+                                              "-o",     folder / "r"};
+  const ProcessResult result = runFaulty(arguments, "build=WIDTH=4");
+  EXPECT_EQ(result.exit_code, 1) << result.err << result.out;
+  const std::string lost = "scaling screen_plane/steep/lanes=4 is lost";
+  EXPECT_NE(result.err.find("note: " + lost + ", its process ended by signal 11"),
+            std::string::npos)
+      << result.err;
+  EXPECT_NE(result.out.find(lost + ": its process ended by signal 11"), std::string::npos)
+      << result.out;
+  const Results results = readResults(folder / "r/results.json");
+  EXPECT_EQ(std::ranges::count(results.records, "shading_ms", &Record::metric), 3);
+  std::vector<std::string> resume = arguments;
+  resume.push_back("--resume");
+  const ProcessResult resumed = runGlintmark(resume);
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_EQ(countOf(resumed.out, "is lost"), 0u) << resumed.out;
+  const Results whole = readResults(folder / "r/results.json");
+  EXPECT_EQ(std::ranges::count(whole.records, "shading_ms", &Record::metric), 4);
+}
+
+TEST(Bench, ADriverThatDiesInEveryCaseIsNoUsableDevice) {
+  const TempFolder folder;
+  const ProcessResult result = runFaulty({"bench", "zk16", "--quiet", "--scene", "screen_plane",
+                                          "--size", "64x36", "--reps", "1", "-o", folder / "r"},
+                                         "exit=shade");
+  EXPECT_EQ(result.exit_code, 3) << result.err << result.out;
+  EXPECT_EQ(result.err,
+            "glintmark: nothing could be measured: zk16 screen_plane/grazing is lost, its process "
+            "ended with exit code 7\n");
+}
+
+// The process that measures must not outlive the one that was started.
+TEST(Bench, AKilledRunLeavesNoProcess) {
+  const TempFolder folder;
+  Process process({"bench", "zk16", "--quiet", "--scene", "screen_plane", "--size", "64x36",
+                   "--reps", "10000", "-o", folder / "run"});
+  while (process.isRunning() && !std::filesystem::exists(folder / "run/records.jsonl"))
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  const std::vector<int> children = process.children();
+  ASSERT_EQ(children.size(), 1u);
+  process.kill();
+  process.wait();
+  const auto give_up = std::chrono::steady_clock::now() + kPatience;
+  const auto gone = [&] { return ::kill(children[0], 0) != 0; };
+  while (!gone() && std::chrono::steady_clock::now() < give_up)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_TRUE(gone());
 }
 
 }  // namespace

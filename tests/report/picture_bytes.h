@@ -21,6 +21,10 @@ struct ExrPart {
   std::vector<std::string> channels;  // each with its values, row by row
   std::vector<std::vector<float>> values;
   std::array<int, 4> data_window, display_window;  // least and largest x and y: x, y, x, y
+  std::vector<int> steps{};  // pixels between samples, both ways; empty: 1 for each channel
+  std::vector<float> chromaticities{};  // of red, green, blue and white, x and y; empty: none said
+
+  int step(std::size_t channel) const { return steps.empty() ? 1 : steps[channel]; }
 };
 
 inline std::string exrAttribute(const std::string& name, const std::string& type,
@@ -30,9 +34,10 @@ inline std::string exrAttribute(const std::string& name, const std::string& type
 
 inline std::string exrHeader(const ExrPart& part, bool in_parts) {
   std::string channels;
-  for (const std::string& name : part.channels)
-    channels += name + '\0' + littleEndian(std::int32_t{2}) + littleEndian(std::int32_t{0}) +
-                littleEndian(std::int32_t{1}) + littleEndian(std::int32_t{1});
+  for (std::size_t c = 0; c < part.channels.size(); ++c)
+    channels += part.channels[c] + '\0' + littleEndian(std::int32_t{2}) +
+                littleEndian(std::int32_t{0}) + littleEndian(std::int32_t{part.step(c)}) +
+                littleEndian(std::int32_t{part.step(c)});
   const auto box = [](const std::array<int, 4>& b) {
     std::string bytes;
     for (const int v : b) bytes += littleEndian(std::int32_t{v});
@@ -43,6 +48,11 @@ inline std::string exrHeader(const ExrPart& part, bool in_parts) {
     header +=
         exrAttribute("chunkCount", "int",
                      littleEndian(std::int32_t{part.data_window[3] - part.data_window[1] + 1}));
+  if (!part.chromaticities.empty()) {
+    std::string numbers;
+    for (const float v : part.chromaticities) numbers += littleEndian(v);
+    header += exrAttribute("chromaticities", "chromaticities", numbers);
+  }
   header += exrAttribute("compression", "compression", std::string(1, '\0')) +
             exrAttribute("dataWindow", "box2i", box(part.data_window)) +
             exrAttribute("displayWindow", "box2i", box(part.display_window)) +
@@ -70,11 +80,15 @@ inline std::string exrBytes(const std::vector<ExrPart>& parts) {
     for (int y = part.data_window[1]; y <= part.data_window[3]; ++y) {
       offsets.push_back(chunks.size());
       if (in_parts) chunks += littleEndian(static_cast<std::int32_t>(p));
-      chunks += littleEndian(std::int32_t{y}) +
-                littleEndian(static_cast<std::int32_t>(4 * width * part.channels.size()));
-      for (const std::vector<float>& values : part.values)
-        for (std::size_t x = 0; x < width; ++x)
-          chunks += littleEndian(values[(y - part.data_window[1]) * width + x]);
+      std::string row;
+      for (std::size_t c = 0; c < part.values.size(); ++c) {
+        const int step = part.step(c);
+        if (y % step != 0) continue;
+        const std::size_t samples = width / step, at = (y - part.data_window[1]) / step * samples;
+        for (std::size_t x = 0; x < samples; ++x) row += littleEndian(part.values[c][at + x]);
+      }
+      chunks +=
+          littleEndian(std::int32_t{y}) + littleEndian(static_cast<std::int32_t>(row.size())) + row;
     }
   }
   const std::size_t begin = file.size() + 8 * offsets.size();

@@ -139,6 +139,64 @@ TEST_F(ImageFiles, LuminanceAndChromaAreColours) {
   for (int i = 0; i < 6; ++i) EXPECT_NEAR(image.pixels[i], wanted[i], 1e-5) << i;
 }
 
+// The shares of luminance are those of the primaries: of three at the corners of the chromaticity
+// diagram, green alone has any. [SMPTE RP 177]
+TEST_F(ImageFiles, LuminanceIsThatOfTheFilesPrimaries) {
+  ExrPart own = part("", {"BY", "RY", "Y"}, {{1, 0}, {0.5f, 0}, {2, 0.75f}});
+  own.chromaticities = {1, 0, 0, 1, 0, 0, 1 / 3.0f, 1 / 3.0f};
+  const Image image = readColours(write("primaries.exr", exrBytes({own})));
+  // Of the first pixel, red is (0.5 + 1) 2 and blue (1 + 1) 2.
+  const float wanted[] = {3, 2, 4, 0.75f, 0.75f, 0.75f};
+  for (int i = 0; i < 6; ++i) EXPECT_NEAR(image.pixels[i], wanted[i], 1e-5) << i;
+}
+
+// Chroma of every second pixel each way, in a window that begins at negative numbers: exact on its
+// samples, halfway between them, and as the last behind it; luminance is exact everywhere.
+TEST_F(ImageFiles, ChromaMayBeStoredForEverySecondPixel) {
+  ExrPart sub{
+      "", {"BY", "RY", "Y"}, {{0, 1}, {0.5f, -0.5f}, {}}, {-2, 2, 1, 3}, {-2, 2, 1, 3}, {2, 2, 1}};
+  for (int i = 1; i <= 8; ++i) sub.values[2].push_back(0.25f * static_cast<float>(i));
+  const Image image = readColours(write("sub.exr", exrBytes({sub})));
+  ASSERT_EQ(image.channels, 3);
+  ASSERT_EQ(image.width, 4);
+  ASSERT_EQ(image.height, 2);
+  const float red[] = {0.5f, 0, -0.5f, -0.5f}, blue[] = {0, 0.5f, 1, 1};
+  for (int i = 0; i < 8; ++i) {
+    const float luminance = sub.values[2][i];
+    const auto pixel = image.at(i % 4, i / 4);
+    EXPECT_NEAR(pixel[0], luminance * (1 + red[i % 4]), 1e-6) << i;
+    EXPECT_NEAR(pixel[2], luminance * (1 + blue[i % 4]), 1e-6) << i;
+    EXPECT_NEAR(0.2126f * pixel[0] + 0.7152f * pixel[1] + 0.0722f * pixel[2], luminance, 1e-6) << i;
+  }
+}
+
+// Any channel may be sampled so, in any part and layer, beside channels that are not wanted.
+TEST_F(ImageFiles, LayersMayBeSampled) {
+  ExrPart layer{"",
+                {"A", "eye.BY", "eye.RY", "eye.Y"},
+                {{1, 1, 1, 1}, {1}, {0.5f}, {1, 1, 1, 1}},
+                {0, 0, 1, 1},
+                {0, 0, 1, 1},
+                {1, 2, 2, 1}};
+  const Image image = readColours(write("eye.exr", exrBytes({layer})).string() + "#eye");
+  for (int i = 0; i < 4; ++i) EXPECT_NEAR(image.pixels[3 * i], 1.5f, 1e-6) << i;
+  std::vector<ExrPart> parts(2, layer);
+  parts[0].name = "first";
+  parts[1].name = "second";
+  parts[1].values[3] = {2, 2, 2, 2};
+  const Image second = readColours(write("two.exr", exrBytes(parts)).string() + "#second.eye");
+  for (int i = 0; i < 4; ++i) EXPECT_NEAR(second.pixels[3 * i], 3, 1e-6) << i;
+}
+
+TEST_F(ImageFiles, SampledFilesThatEndEarlyAreErrors) {
+  const ExrPart sub{"",           {"BY", "RY", "Y"}, {{0}, {0}, {1, 1, 1, 1}},
+                    {0, 0, 1, 1}, {0, 0, 1, 1},      {2, 2, 1}};
+  const std::string whole = exrBytes({sub});
+  EXPECT_EQ(readColours(write("whole.exr", whole)).width, 2);
+  for (std::size_t size = 4; size < whole.size(); size += 7)
+    EXPECT_THROW(readColours(write("cut.exr", whole.substr(0, size))), Error) << size;
+}
+
 TEST_F(ImageFiles, SizesAreCheckedBeforeMemoryIsTaken) {
   for (const auto& [width, height] : {std::pair{60000, 60000}, std::pair{40000, 1}})
     expectIn(normalsError(write("bomb.png", pngBytes(width, height, 8, 2, ""))),

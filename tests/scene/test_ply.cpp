@@ -99,6 +99,20 @@ TEST(Ply, StripsAndPolygonsBecomeTriangles) {
   for (const glm::vec3& n : strip.mesh.normals) EXPECT_NEAR(n.z, -1, 1e-6);
 }
 
+TEST(Ply, ListsAmongTheNumbersOfAVertex) {
+  const std::string lists =
+      std::string(kVertices) + "property list uchar float s\nproperty float t\n";
+  const TriangleMesh mesh = ply(kTextHead + lists + kFaces +
+                                "end_header\n0 0 0 2 8 9 5\n1 0 0 0 5\n0 1 0 1 7 5\n3 0 1 2\n")
+                                .mesh;
+  ASSERT_EQ(mesh.positions.size(), 3u);
+  EXPECT_EQ(mesh.positions[2], glm::vec3(0, 1, 0));
+  expectMessage(
+      plyError(kTextHead + "element vertex 1\nproperty list uchar float x\nproperty float "
+                           "y\nproperty float z\nend_header\n1 5 0 0\n"),
+      {"no property x"});
+}
+
 TEST(Ply, WhatIsWrongIsSaid) {
   expectMessage(plyError(kTextHead + "element vertex 9\nproperty float x\nend_header\n0\n1"),
                 {"mesh.ply", "ends before the elements"});

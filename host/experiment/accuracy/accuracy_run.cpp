@@ -11,6 +11,7 @@
 #include "host/experiment/accuracy/accuracy_table.h"
 #include "host/experiment/all_tables.h"
 #include "host/experiment/interrupt.h"
+#include "host/experiment/survival.h"
 #include "host/report/record/case_name.h"
 
 namespace glintmark {
@@ -100,6 +101,30 @@ std::string headText(const BenchRun& run) {
       100 * kAccuracyStep);
 }
 
+int measureAccuracy(const Session& session, const AccuracySelection& selection,
+                    const std::vector<AccuracyKind>& kinds, const BenchOptions& options) {
+  const InterruptGuard guard;
+  BenchRun run(session, options);
+  std::string left_out, closer;
+  for (const AccuracyKind& kind : kinds) {
+    const auto effect = kind.make(run, chosenScenes(kind, options.scenes));
+    run.measureCases(accuracySpec().name, chosenCases(effect->cases(), selection.knobs),
+                     {"error", "truth_stderr", "time_ratio"},
+                     [&](const std::string& name) { return effect->measure(name); });
+    run.measureCases(accuracySpec().name, chosenCases(effect->closerCases(), selection.knobs),
+                     {"error", "truth_stderr"},
+                     [&](const std::string& name) { return effect->measureCloser(name); });
+    closer += effect->closerText(run.recordsOf(accuracySpec().name));
+    if (const std::string left = effect->leftOut(); !left.empty()) left_out += "\n" + left + "\n";
+  }
+  requireMeasured(run.records().size());
+  run.addDerived(accuracyDerived(run.recordsOf(accuracySpec().name)));
+  const std::vector<Record> records = run.recordsOf(accuracySpec().name);
+  writeAccuracyCharts(records, run.folder());
+  return run.finish(headText(run) + accuracyTableText(records) + closer + left_out +
+                    invalidText(records));
+}
+
 }  // namespace
 
 std::vector<std::string> accuracyEffects() {
@@ -123,25 +148,10 @@ int runAccuracy(const Session& session, const AccuracySelection& selection, Benc
       {"rays", std::to_string(options.rays)},
       {"scenes",
        options.scenes.empty() ? "default" : fmt::format("{}", fmt::join(options.scenes, " "))}};
-  const InterruptGuard guard;
-  BenchRun run(session, options);
-  std::string left_out, closer;
-  for (const AccuracyKind& kind : kinds) {
-    const auto effect = kind.make(run, chosenScenes(kind, options.scenes));
-    run.measureCases(accuracySpec().name, chosenCases(effect->cases(), selection.knobs),
-                     {"error", "truth_stderr", "time_ratio"},
-                     [&](const std::string& name) { return effect->measure(name); });
-    run.measureCases(accuracySpec().name, chosenCases(effect->closerCases(), selection.knobs),
-                     {"error", "truth_stderr"},
-                     [&](const std::string& name) { return effect->measureCloser(name); });
-    closer += effect->closerText(run.recordsOf(accuracySpec().name));
-    if (const std::string left = effect->leftOut(); !left.empty()) left_out += "\n" + left + "\n";
-  }
-  run.addDerived(accuracyDerived(run.recordsOf(accuracySpec().name)));
-  const std::vector<Record> records = run.recordsOf(accuracySpec().name);
-  writeAccuracyCharts(records, run.folder());
-  return run.finish(headText(run) + accuracyTableText(records) + closer + left_out +
-                    invalidText(records));
+  return runSurviving(session.common.quiet, [&](bool first) {
+    options.resume = options.resume || !first;
+    return measureAccuracy(session, selection, kinds, options);
+  });
 }
 
 // `bench` does not measure it.

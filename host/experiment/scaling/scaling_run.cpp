@@ -11,6 +11,7 @@
 #include "host/experiment/frame_timing.h"
 #include "host/experiment/interrupt.h"
 #include "host/experiment/scaling/scaling_table.h"
+#include "host/experiment/survival.h"
 #include "host/report/metrics.h"
 #include "host/report/record/case_name.h"
 #include "host/report/record/score.h"
@@ -177,11 +178,10 @@ std::vector<std::string> scalingKnobs() {
   return {kHeightKnob, kLanesKnob, kThreadsKnob};
 }
 
-int runScaling(const Session& session, const ScalingSelection& selection, BenchOptions options) {
-  requireKnownScalingKnobs(selection.knobs);
-  if (selection.most_height_px < kHeights_px[0] || selection.most_height_px > 16384)
-    throw Error(fmt::format("--up-to {} is not a height from {} to 16384 pixels",
-                            selection.most_height_px, kHeights_px[0]));
+namespace {
+
+int measureScaling(const Session& session, const ScalingSelection& selection,
+                   const BenchOptions& options) {
   const InterruptGuard guard;
   BenchRun run(session, options);
   ScalingMeasurement measurement(run, selection);
@@ -194,11 +194,25 @@ int runScaling(const Session& session, const ScalingSelection& selection, BenchO
                    {"shading_ms", "ns_per_px", "prepare_ms", "buffer_bytes_per_px"},
                    [&](const std::string& name) { return measurement.measure(name); });
   const std::vector<Record> records = run.recordsOf(scalingSpec().name);
+  requireMeasured(records.size());
   const std::string head = fmt::format(
       "Scaling of {}, {} lanes; pictures of 16:9 by height, lanes and threads at {}\non {:.90}\n\n",
       measurement.viewName(), run.info().width, run.options().size, run.info().device);
   return run.finish(head + scalingTableText(records) + measurement.leftOut() +
                     invalidText(records) + "\n" + scoreLine(scalingSpec(), records));
+}
+
+}  // namespace
+
+int runScaling(const Session& session, const ScalingSelection& selection, BenchOptions options) {
+  requireKnownScalingKnobs(selection.knobs);
+  if (selection.most_height_px < kHeights_px[0] || selection.most_height_px > 16384)
+    throw Error(fmt::format("--up-to {} is not a height from {} to 16384 pixels",
+                            selection.most_height_px, kHeights_px[0]));
+  return runSurviving(session.common.quiet, [&](bool first) {
+    options.resume = options.resume || !first;
+    return measureScaling(session, selection, options);
+  });
 }
 
 // `bench` does not measure it.

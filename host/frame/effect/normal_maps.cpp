@@ -1,6 +1,10 @@
 #include "host/frame/effect/normal_maps.h"
 
+#include <fmt/format.h>
+
 #include "host/core/error.h"
+#include "host/core/free_memory.h"
+#include "host/core/progress.h"
 #include "host/filter/interpolated_normals.h"
 #include "host/filter/normal_moments.h"
 #include "host/mixture/fournier_peaks.h"
@@ -11,8 +15,21 @@
 namespace glintmark {
 namespace {
 
+// A fit of a large map takes minutes.
+NormalMixtures fittedMixtures(const NormalMap& map, const MixtureOptions& options,
+                              const DiskCache& cache) {
+  Progress progress(false);
+  return cachedNormalMixtures(map, options, cache,
+                              [&](double share) {
+                                progress.show(static_cast<int>(share * 100), 100,
+                                              fmt::format("% of the mixtures of map {}", map.name));
+                              })
+      .mixtures;
+}
+
 // The map's own normals, a texture of one level: every footprint is read at the finest.
 MipTexels finestNormals(const NormalMap& map) {
+  requireMemory(map.normals.size() * sizeof(float4), fmt::format("map '{}'", map.name));
   MipTexels texels;
   texels.layout.width = static_cast<uint>(map.width_px);
   texels.layout.height = static_cast<uint>(map.height_px);
@@ -48,7 +65,7 @@ NormalMixtures interpolatedMixtures(const NormalMap& map, MixtureOptions options
                                     const DiskCache& cache) {
   options.surface = MixtureSurface::kTexels;
   NormalMixtures mixtures =
-      cachedNormalMixtures(interpolatedNormals(map, kSurfaceSamples), options, cache).mixtures;
+      fittedMixtures(interpolatedNormals(map, kSurfaceSamples), options, cache);
   mixtures.moments = coarserLevels(mixtures.moments);
   return mixtures;
 }
@@ -57,9 +74,8 @@ NormalTexture uploadMixtures(Device& device, const NormalMap& map, int lobes, bo
                              MixtureOrder order, int iterations, bool for_area_lights) {
   const MixtureOptions options = mixtureOptions(lobes, order, iterations);
   const DiskCache cache = DiskCache::fromEnvironment();
-  const NormalMixtures mixtures = for_area_lights
-                                      ? interpolatedMixtures(map, options, cache)
-                                      : cachedNormalMixtures(map, options, cache).mixtures;
+  const NormalMixtures mixtures = for_area_lights ? interpolatedMixtures(map, options, cache)
+                                                  : fittedMixtures(map, options, cache);
   if (!half) return uploadTexture(device, mixtures.moments);
   return uploadTexture(device, mixtures.moments.layout, packHalfMixtures(mixtures),
                        static_cast<std::size_t>(lobes) * 4 * sizeof(std::uint16_t));

@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -76,6 +77,9 @@ class ImageSource {
     return turned(framed(std::move(image), part), part.orientation);
   }
 
+  /// Of red, green and blue in a part's luminance.
+  std::array<float, 3> luminances(int number) { return partOf(number).luminance; }
+
   int channelCount(int number) { return static_cast<int>(partOf(number).channel_names.size()); }
 
  private:
@@ -148,10 +152,10 @@ bool isLuminanceChroma(const ImageLayer& layer, const std::vector<int>& wanted) 
   return wanted.size() == 3 && (layer.names[wanted[1]] == "RY" || layer.names[wanted[1]] == "ry");
 }
 
-/// Y, (R - Y) / Y and (B - Y) / Y as red, green and blue. [OpenEXR, "Technical Introduction"]
+/// Y, (R - Y) / Y and (B - Y) / Y as red, green and blue, of which Y has so much each. [OpenEXR,
+/// "Technical Introduction"]
 Image toColours(const Image& all, const ImageLayer& layer, const std::vector<int>& wanted,
-                int begin) {
-  constexpr float kRed = 0.2126f, kGreen = 0.7152f, kBlue = 0.0722f;
+                int begin, const std::array<float, 3>& luminances) {
   Image rgb(all.width, all.height, 3);
   for (int y = 0; y < rgb.height; ++y)
     for (int x = 0; x < rgb.width; ++x) {
@@ -160,7 +164,7 @@ Image toColours(const Image& all, const ImageLayer& layer, const std::vector<int
                   blue = (value(2) + 1) * luminance;
       const auto out = rgb.at(x, y);
       out[0] = red;
-      out[1] = (luminance - kRed * red - kBlue * blue) / kGreen;
+      out[1] = (luminance - luminances[0] * red - luminances[2] * blue) / luminances[1];
       out[2] = blue;
     }
   rgb.channel_names = {"R", "G", "B"};
@@ -176,7 +180,8 @@ Image readLayer(ImageSource& source, const ImageLayer& layer, ImageUse use) {
     end = std::max(end, layer.channels[i] + 1);
   }
   Image all = source.read(layer.part, begin, end);
-  if (isLuminanceChroma(layer, wanted)) return toColours(all, layer, wanted, begin);
+  if (isLuminanceChroma(layer, wanted))
+    return toColours(all, layer, wanted, begin, source.luminances(layer.part));
   bool in_order = all.channels == static_cast<int>(wanted.size());
   for (std::size_t c = 0; c < wanted.size(); ++c)
     in_order = in_order && layer.channels[wanted[c]] == begin + static_cast<int>(c);

@@ -61,7 +61,8 @@ std::uint32_t GltfPrimitives::partOf(const Json& primitive, GltfUv& uv) {
   return static_cast<std::uint32_t>(found - keys_.begin());
 }
 
-void GltfPrimitives::add(const Json& primitive, const glm::dmat4& transform, const Json* weights) {
+void GltfPrimitives::add(const Json& primitive, const glm::dmat4& transform,
+                         const std::vector<glm::dmat4>& joints, const Json* weights) {
   const std::uint64_t mode = document_.whole(primitive, "mode", kTriangles);
   const auto attributes = primitive.find("attributes");
   if (mode < kTriangles || attributes == primitive.end() || !attributes->contains("POSITION"))
@@ -77,16 +78,14 @@ void GltfPrimitives::add(const Json& primitive, const glm::dmat4& transform, con
   addVertices(*attributes, uv);
   if (weights != nullptr && weights->is_array() && primitive.contains("targets"))
     morph(primitive, *weights);
-  const glm::dmat3 for_normals = normalMatrix(transform);
   reserveMore(out_.positions, positions_.size());
   reserveMore(out_.normals, positions_.size());
-  for (std::size_t i = 0; i < positions_.size(); ++i) {
-    out_.positions.emplace_back(transform * glm::dvec4(positions_[i], 1));
-    const glm::dvec3 n = normals_.empty() ? glm::dvec3(0) : for_normals * normals_[i];
-    const double length = glm::length(n);
-    out_.normals.emplace_back(length > 0 ? n / length : n);
+  if (!joints.empty() && GltfSkinning::isIn(*attributes)) {
+    place(GltfSkinning(document_, *attributes, joints, positions_.size()));
+  } else {
+    place(transform);
   }
-  addTriangles(primitive, part, glm::determinant(glm::dmat3(transform)) < 0);
+  addTriangles(primitive, part);
   if (normals_.empty()) flatten(first_triangle);
 }
 
@@ -145,7 +144,30 @@ void GltfPrimitives::morph(const Json& primitive, const Json& weights) {
   }
 }
 
-void GltfPrimitives::addTriangles(const Json& primitive, std::uint32_t part, bool mirrored) {
+void GltfPrimitives::placeVertex(std::size_t i, const glm::dmat4& transform,
+                                 const glm::dmat3& for_normals) {
+  out_.positions.emplace_back(transform * glm::dvec4(positions_[i], 1));
+  const glm::dvec3 n = normals_.empty() ? glm::dvec3(0) : for_normals * normals_[i];
+  const double length = glm::length(n);
+  out_.normals.emplace_back(length > 0 ? n / length : n);
+}
+
+void GltfPrimitives::place(const glm::dmat4& transform) {
+  mirrored_.assign(1, glm::determinant(glm::dmat3(transform)) < 0);
+  const glm::dmat3 for_normals = normalMatrix(transform);
+  for (std::size_t i = 0; i < positions_.size(); ++i) placeVertex(i, transform, for_normals);
+}
+
+void GltfPrimitives::place(const GltfSkinning& skinning) {
+  mirrored_.clear();
+  for (std::size_t i = 0; i < positions_.size(); ++i) {
+    const glm::dmat4 matrix = skinning.matrix(i);
+    mirrored_.push_back(glm::determinant(glm::dmat3(matrix)) < 0);
+    placeVertex(i, matrix, normalMatrix(matrix));
+  }
+}
+
+void GltfPrimitives::addTriangles(const Json& primitive, std::uint32_t part) {
   const std::uint64_t mode = document_.whole(primitive, "mode", kTriangles);
   std::optional<GltfAccessor> indices;
   if (const auto reference = primitive.find("indices"); reference != primitive.end())
@@ -170,7 +192,7 @@ void GltfPrimitives::addTriangles(const Json& primitive, std::uint32_t part, boo
     } else {
       t = {vertex(i + 1), vertex(i + 2), vertex(0)};
     }
-    if (mirrored) std::swap(t.y, t.z);
+    if (mirrored_[mirrored_.size() > 1 ? t.x - first_vertex_ : 0]) std::swap(t.y, t.z);
     out_.triangles.push_back(t);
     out_.triangle_parts.push_back(part);
   }

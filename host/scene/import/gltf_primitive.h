@@ -6,6 +6,7 @@
 
 #include "host/scene/import/gltf_accessor.h"
 #include "host/scene/import/gltf_materials.h"
+#include "host/scene/import/gltf_skin.h"
 #include "host/scene/import/mesh_source.h"
 
 namespace glintmark {
@@ -18,9 +19,10 @@ class GltfPrimitives {
   /// The file's materials, whose parts `out` already has.
   void useMaterials(const GltfDocument::Json& materials);
   /// Appends the triangles of a primitive; points and lines are left out. `weights` are those of
-  /// its morph targets, null for none. Throws Error.
+  /// its morph targets, null for none. Where it hangs on joints, those of `joints` (GltfSkins,
+  /// empty for none) move it, not `transform`. Throws Error.
   void add(const GltfDocument::Json& primitive, const glm::dmat4& transform,
-           const GltfDocument::Json* weights);
+           const std::vector<glm::dmat4>& joints, const GltfDocument::Json* weights);
 
  private:
   using Json = GltfDocument::Json;
@@ -28,7 +30,10 @@ class GltfPrimitives {
   std::uint32_t partOf(const Json& primitive, GltfUv& uv);
   void addVertices(const Json& attributes, const GltfUv& uv);
   void morph(const Json& primitive, const Json& weights);
-  void addTriangles(const Json& primitive, std::uint32_t part, bool mirrored);
+  void place(const glm::dmat4& transform);
+  void place(const GltfSkinning& skinning);
+  void placeVertex(std::size_t i, const glm::dmat4& transform, const glm::dmat3& for_normals);
+  void addTriangles(const Json& primitive, std::uint32_t part);
   void flatten(std::size_t first_triangle);
 
   GltfDocument& document_;
@@ -38,6 +43,7 @@ class GltfPrimitives {
   // Of the primitive at hand, before its transform.
   std::vector<glm::dvec3> positions_;
   std::vector<glm::dvec3> normals_;
+  std::vector<bool> mirrored_;  // by its transform; one for all, or one per vertex
   std::size_t first_vertex_ = 0;
 };
 

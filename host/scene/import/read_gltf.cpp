@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cmath>
-#include <glm/gtc/quaternion.hpp>
-#include <optional>
 #include <set>
 
 #include "host/core/error.h"
@@ -13,6 +10,7 @@
 #include "host/scene/import/gltf_document.h"
 #include "host/scene/import/gltf_materials.h"
 #include "host/scene/import/gltf_primitive.h"
+#include "host/scene/import/gltf_skin.h"
 
 namespace glintmark {
 namespace {
@@ -21,31 +19,19 @@ using Json = GltfDocument::Json;
 
 constexpr std::size_t kMostNodes = 10'000'000;
 
-glm::dmat4 transformOf(const GltfDocument& document, const Json& node) {
-  if (node.contains("matrix")) {
-    double m[16];
-    document.numbers(node, "matrix", 16, m);
-    glm::dmat4 matrix;
-    for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = m[i];
-    return matrix;
-  }
-  double t[3] = {0, 0, 0}, r[4] = {0, 0, 0, 1}, s[3] = {1, 1, 1};
-  document.numbers(node, "translation", 3, t);
-  document.numbers(node, "rotation", 4, r);
-  document.numbers(node, "scale", 3, s);
-  const double length = std::sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2] + r[3] * r[3]);
-  glm::dmat4 matrix(1);
-  if (length > 0 && std::isfinite(length))
-    matrix = glm::mat4_cast(glm::dquat(r[3] / length, r[0] / length, r[1] / length, r[2] / length));
-  for (int c = 0; c < 3; ++c) matrix[c] *= s[c];
-  matrix[3] = glm::dvec4(t[0], t[1], t[2], 1);
-  return matrix;
-}
+/// What moves the meshes of a node.
+struct Placement {
+  glm::dmat4 transform{1};
+  std::vector<glm::dmat4> joints{};  // empty for none
+};
 
 class GltfReader {
  public:
   GltfReader(const std::filesystem::path& file, bool wants_materials)
-      : document_(file), wants_materials_(wants_materials), primitives_(document_, out_) {}
+      : document_(file),
+        wants_materials_(wants_materials),
+        primitives_(document_, out_),
+        skins_(document_) {}
 
   MeshSource run() {
     readMaterials();
@@ -107,7 +93,7 @@ class GltfReader {
       if (!visited_.insert(reference.dump()).second || visited_.size() > kMostNodes)
         document_.fail(fmt::format(
             "node {} has two parents or is its own ancestor, expected a tree", reference.dump()));
-      const glm::dmat4 transform = parent * transformOf(document_, node);
+      const glm::dmat4 transform = parent * gltfTransform(document_, node);
       addMeshes(node, transform);
       const auto children = node.find("children");
       if (children == node.end()) continue;
@@ -118,10 +104,7 @@ class GltfReader {
   }
 
   void addMeshes(const Json& node, const glm::dmat4& transform) {
-    const bool skinned = node.contains("skin") || node.contains("skeletons");
-    skins_ += skinned;
-    // Where joints move a mesh, its node does not.
-    const glm::dmat4 place = skinned ? glm::dmat4(1) : transform;
+    const Placement place = placementOf(node, transform);
     const Json* weights = node.contains("weights") ? &node["weights"] : nullptr;
     if (const Json* instances = GltfDocument::extension(node, "EXT_mesh_gpu_instancing");
         instances != nullptr && node.contains("mesh"))
@@ -131,7 +114,20 @@ class GltfReader {
       for (const Json& mesh : *meshes) addMesh(mesh, place, weights);
   }
 
-  void addMesh(const Json& reference, const glm::dmat4& transform, const Json* weights) {
+  /// Where joints move a mesh, its node does not.
+  Placement placementOf(const Json& node, const glm::dmat4& transform) {
+    const auto skin = node.find("skin");
+    if (document_.version() == 1) {
+      const bool skinned = skin != node.end() || node.contains("skeletons");
+      bound_ += skinned;
+      return {skinned ? glm::dmat4(1) : transform, {}};
+    }
+    if (skin == node.end() || !node.contains("mesh")) return {transform, {}};
+    ++skinned_;
+    return {transform, skins_.joints(*skin)};
+  }
+
+  void addMesh(const Json& reference, const Placement& place, const Json* weights) {
     const Json& mesh = document_.object("meshes", reference);
     const auto primitives = mesh.find("primitives");
     if (primitives == mesh.end() || !primitives->is_array()) return;
@@ -140,7 +136,7 @@ class GltfReader {
     for (const Json& primitive : *primitives) {
       if (!primitive.is_object()) document_.fail("a primitive of a mesh is no object");
       morphs = morphs || primitive.contains("targets");
-      primitives_.add(primitive, transform, weights);
+      primitives_.add(primitive, place.transform, place.joints, weights);
     }
     morphs_ += morphs;
   }
@@ -149,7 +145,7 @@ class GltfReader {
     const auto meshes = document_.root().find("meshes");
     if (meshes == document_.root().end()) return;
     for (const auto& [key, mesh] : meshes->items())
-      addMesh(meshes->is_array() ? Json(std::stoull(key)) : Json(key), glm::dmat4(1), nullptr);
+      addMesh(meshes->is_array() ? Json(std::stoull(key)) : Json(key), {}, nullptr);
   }
 
   void addNotes() {
@@ -160,7 +156,8 @@ class GltfReader {
                         std::filesystem::path(document_.source()).filename().string(), text));
     };
     note(morphs_, "meshes with morph targets stand at their default weights");
-    note(skins_, "skinned meshes stand in the pose they were bound in");
+    note(skinned_, "skinned meshes stand in the pose that their joints have at rest");
+    note(bound_, "skinned meshes stand in the pose they were bound in");
     note(instanced_, "nodes have instances by EXT_mesh_gpu_instancing, of which one each is drawn");
     if (materials_ > 0 && !wants_materials_)
       out_.notes.push_back(
@@ -172,8 +169,9 @@ class GltfReader {
   bool wants_materials_;
   MeshSource out_;
   GltfPrimitives primitives_;
+  GltfSkins skins_;
   std::set<std::string> visited_;
-  std::size_t materials_ = 0, morphs_ = 0, skins_ = 0, instanced_ = 0;
+  std::size_t materials_ = 0, morphs_ = 0, skinned_ = 0, bound_ = 0, instanced_ = 0;
 };
 
 }  // namespace

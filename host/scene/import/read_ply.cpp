@@ -22,9 +22,13 @@ struct VertexLayout {
   std::array<int, 2> uv{-1, -1};
 
   explicit VertexLayout(const PlyElement& element) {
-    position = {element.find({"x"}), element.find({"y"}), element.find({"z"})};
-    normal = {element.find({"nx", "normal_x"}), element.find({"ny", "normal_y"}),
-              element.find({"nz", "normal_z"})};
+    // A list of numbers is none.
+    const auto find = [&](std::initializer_list<std::string_view> names) {
+      const int found = element.find(names);
+      return found >= 0 && element.properties[found].is_list ? -1 : found;
+    };
+    position = {find({"x"}), find({"y"}), find({"z"})};
+    normal = {find({"nx", "normal_x"}), find({"ny", "normal_y"}), find({"nz", "normal_z"})};
     constexpr std::pair<const char*, const char*> kNames[] = {{"u", "v"},
                                                               {"s", "t"},
                                                               {"texture_u", "texture_v"},
@@ -32,7 +36,7 @@ struct VertexLayout {
                                                               {"texcoord_u", "texcoord_v"},
                                                               {"u0", "v0"}};
     for (const auto& [u, v] : kNames) {
-      uv = {element.find({u}), element.find({v})};
+      uv = {find({u}), find({v})};
       if (uv[0] >= 0 && uv[1] >= 0) return;
     }
     uv = {-1, -1};
@@ -98,7 +102,7 @@ class PlyReader {
     out_.positions.reserve(element.count);
     out_.normals.reserve(element.count);
     out_.uvs.reserve(element.count);
-    const auto at = [&](int i) { return i < 0 || element.properties[i].is_list ? 0.0 : row_[i]; };
+    const auto at = [&](int i) { return row_[i]; };
     for (std::uint64_t i = 0; i < element.count; ++i) {
       readRow(element);
       out_.positions.emplace_back(at(layout.position[0]), at(layout.position[1]),

@@ -1,0 +1,44 @@
+// Measurements that outlive a driver which ends their process.
+#pragma once
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace glintmark {
+
+/// A case that ended the process which measured it.
+struct LostCase {
+  std::string name;
+  std::string how;  // "ended by signal 11 (Segmentation fault)"
+};
+
+/// Runs `measure` in a child of this process, and again in another one whenever one dies within a
+/// CaseAtHand, until one ends by itself; `measure` is told whether it is the first. Drivers die
+/// while they compile, launch and read: a child that only compiles would see the first of these, at
+/// twice the price. Returns `measure`'s result in the child, where its exceptions pass through, and
+/// the child's exit code in this process, which is not to have used OpenCL. Requests to end are
+/// handed on; a child that these or a lack of memory (SIGKILL) ended is not replaced. Unless quiet,
+/// a note on stderr says what was lost.
+int runSurviving(bool quiet, const std::function<int(bool first)>& measure);
+
+/// Cases that processes before this one died in.
+const std::vector<LostCase>& lostCases();
+/// Throws DeviceError if there are none of `records` because every case was lost.
+void requireMeasured(std::size_t records);
+/// How long these processes took, in seconds.
+double secondsOfLostProcesses();
+
+/// As long as it lives, this process measures the case of that name.
+class CaseAtHand {
+ public:
+  explicit CaseAtHand(const std::string& name);
+  ~CaseAtHand();
+  CaseAtHand(const CaseAtHand&) = delete;
+  CaseAtHand& operator=(const CaseAtHand&) = delete;
+};
+
+/// How a process ended, by the status that waitpid() gave.
+std::string howItEnded(int status);
+
+}  // namespace glintmark

@@ -1,0 +1,116 @@
+// Formats of others than EXR and PNG of plain colours: every way in which their rows and numbers
+// may lie, written byte by byte.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "host/core/atomic_file.h"
+#include "host/core/error.h"
+#include "host/report/picture/image_io.h"
+#include "tests/report/picture_bytes.h"
+#include "tests/report/temp_folder.h"
+
+namespace glintmark {
+namespace {
+
+class ImageFormats : public testing::Test {
+ protected:
+  Image read(const std::string& name, const std::string& bytes) const {
+    writeFile(folder_ / name, bytes);
+    return readColours(folder_ / name);
+  }
+
+  const TempFolder folder_;
+};
+
+/// Red of each pixel in steps of 1 / 255, row by row.
+std::vector<int> reds(const Image& image) {
+  std::vector<int> values;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      values.push_back(static_cast<int>(std::lround(255 * image.at(x, y)[0])));
+  return values;
+}
+
+const std::vector<int> kUpright = {10, 20, 30, 40, 50, 60};  // of 3x2 pixels
+
+/// Pixels of one colour channel each, blue, green and red alike, in that order of `values`.
+std::string greys(const std::vector<int>& values) {
+  std::string bytes;
+  for (const int v : values) bytes += std::string(3, static_cast<char>(v));
+  return bytes;
+}
+
+// Eight ways to write a picture: which axis the scanlines go along, and which way each goes. [Ward,
+// "Radiance File Formats", picture files]
+TEST_F(ImageFormats, RadianceOfAnyOrientation) {
+  const std::pair<const char*, std::vector<int>> kWays[] = {
+      {"-Y 2 +X 3", {10, 20, 30, 40, 50, 60}}, {"-Y 2 -X 3", {30, 20, 10, 60, 50, 40}},
+      {"+Y 2 +X 3", {40, 50, 60, 10, 20, 30}}, {"+Y 2 -X 3", {60, 50, 40, 30, 20, 10}},
+      {"+X 3 -Y 2", {10, 40, 20, 50, 30, 60}}, {"+X 3 +Y 2", {40, 10, 50, 20, 60, 30}},
+      {"-X 3 -Y 2", {30, 60, 20, 50, 10, 40}}, {"-X 3 +Y 2", {60, 30, 50, 20, 40, 10}}};
+  for (const auto& [way, values] : kWays) {
+    std::string file = std::string("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n") + way + "\n";
+    for (const int v : values)  // v / 256: the exponent of 128 is 0
+      file += std::string{static_cast<char>(v), 0, 0, static_cast<char>(128)};
+    const Image image = read("way.hdr", file);
+    ASSERT_EQ(image.width, 3) << way;
+    ASSERT_EQ(image.height, 2) << way;
+    for (int i = 0; i < 6; ++i)
+      EXPECT_NEAR(image.at(i % 3, i / 3)[0], kUpright[i] / 256.0, 0.5 / 256) << way << " " << i;
+  }
+}
+
+TEST_F(ImageFormats, PalettesAreTheirColours) {
+  // Four indices of two bits to a byte; entries 0 to 3.
+  const std::string palette = greys({10, 20, 30, 40});
+  const auto png = [&](const std::string& more) {
+    const std::string plain = pngBytes(4, 1, 2, 3, std::string(1, '\x1B'));  // 0 1 2 3
+    const std::size_t head = 8 + 12 + 13;
+    return plain.substr(0, head) + pngChunk("PLTE", palette) + more + plain.substr(head);
+  };
+  EXPECT_EQ(reds(read("palette.png", png(""))), (std::vector<int>{10, 20, 30, 40}));
+  // Transparency hides nothing of a colour.
+  EXPECT_EQ(reds(read("clear.png", png(pngChunk("tRNS", std::string(2, '\0'))))),
+            (std::vector<int>{10, 20, 30, 40}));
+}
+
+TEST_F(ImageFormats, DeepGreysWithAlpha) {
+  std::string pixels;
+  for (const int v : {0x2000, 0x8001})
+    pixels += std::string{static_cast<char>(v >> 8), static_cast<char>(v & 0xFF), 0, 0};
+  const Image image = read("deep.png", pngBytes(2, 1, 16, 4, pixels));
+  EXPECT_NEAR(image.at(0, 0)[0], 0x2000 / 65535.0, 1e-6);
+  EXPECT_NEAR(image.at(1, 0)[2], 0x8001 / 65535.0, 1e-6);
+}
+
+// A descriptor's bit 5: the first row is the top one.
+TEST_F(ImageFormats, TargaFromTheBottomAndTheTop) {
+  for (const bool from_top : {false, true}) {
+    const std::vector<int> stored = from_top ? kUpright : std::vector<int>{40, 50, 60, 10, 20, 30};
+    std::string file = {0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 3, 0, 2, 0, 24};
+    file += from_top ? '\x20' : '\0';
+    EXPECT_EQ(reds(read("rows.tga", file + greys(stored))), kUpright) << from_top;
+    EXPECT_THROW(read("cut.tga", (file + greys(stored)).substr(0, 30)), Error);
+  }
+}
+
+// A negative height: the first row is the top one. Rows are padded to four bytes.
+TEST_F(ImageFormats, BitmapsFromTheBottomAndTheTop) {
+  for (const int height : {2, -2}) {
+    const std::vector<int> stored =
+        height < 0 ? kUpright : std::vector<int>{40, 50, 60, 10, 20, 30};
+    std::string rows;
+    for (int y = 0; y < 2; ++y)
+      rows += greys({stored.begin() + 3 * y, stored.begin() + 3 * y + 3}) + std::string(3, '\0');
+    const auto whole = [](int v) { return littleEndian(std::int32_t{v}); };
+    const std::string file = "BM" + whole(54 + 24) + whole(0) + whole(54) + whole(40) + whole(3) +
+                             whole(height) + littleEndian(std::int16_t{1}) +
+                             littleEndian(std::int16_t{24}) + whole(0) + whole(24) + whole(0) +
+                             whole(0) + whole(0) + whole(0) + rows;
+    EXPECT_EQ(reds(read("rows.bmp", file)), kUpright) << height;
+  }
+}
+
+}  // namespace
+}  // namespace glintmark
