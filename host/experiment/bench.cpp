@@ -10,6 +10,7 @@
 #include "host/core/trace.h"
 #include "host/experiment/all_tables.h"
 #include "host/experiment/interrupt.h"
+#include "host/parallel/ranks.h"
 #include "host/report/record/score.h"
 #include "host/report/record/trace_file.h"
 
@@ -76,7 +77,8 @@ int runBench(const Session& session, const std::vector<std::string>& names,
              const BenchOptions& options) {
   const std::vector<BenchTable> tables = chooseTables(names, options);
   const InterruptGuard guard;
-  if (!options.trace.empty()) {
+  const bool traces = !options.trace.empty() && allRanks().isFirst();
+  if (traces) {
     requireWritableFile(options.trace);
     startTrace();
   }
@@ -87,13 +89,14 @@ int runBench(const Session& session, const std::vector<std::string>& names,
       tables[i].measure(run);
     }
   } catch (const Interrupted&) {
-    if (!options.trace.empty()) writeTrace(options.trace, run.info());
+    if (traces) writeTrace(options.trace, run.info());
     throw;
   }
+  if (!allRanks().isFirst()) return kExitDone;
   std::vector<std::string> texts;
   texts.reserve(tables.size());
   for (const BenchTable& table : tables) texts.push_back(table.text(run));
-  if (!options.trace.empty()) writeTrace(options.trace, run.info());
+  if (traces) writeTrace(options.trace, run.info());
   std::string scores;
   for (const BenchTable& table : tables) scores += scoreLine(table.spec, run.records());
   return run.finish(

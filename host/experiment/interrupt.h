@@ -10,8 +10,15 @@ class Interrupted : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The same while this rank waited for another that did not answer; it may have died.
+class RankSilent : public Interrupted {
+ public:
+  using Interrupted::Interrupted;
+};
+
 /// While it lives, the first SIGINT or SIGTERM only sets a flag; a second one ends the program at
-/// once.
+/// once, unless it is one of several ranks: their launcher kills those that take too long. A rank
+/// that waits for others after a signal, which may never come, throws RankSilent after a while.
 class InterruptGuard {
  public:
   InterruptGuard();

@@ -15,8 +15,10 @@
 #include "host/experiment/frame_truth.h"
 #include "host/experiment/msbrdf/msbrdf_cases.h"
 #include "host/fit/lobe_fit.h"
+#include "host/parallel/ranks.h"
 #include "host/report/metrics.h"
 #include "host/report/record/case_name.h"
+#include "host/simulate/shared_simulation.h"
 
 namespace glintmark {
 namespace {
@@ -114,6 +116,7 @@ class MsbrdfSweep : public AccuracyEffect {
   std::vector<std::string> cases() const override;
   std::vector<Record> measure(const std::string& case_name) override;
   std::string leftOut() const override;
+  void prepareTruths() override { truths(allRanks()); }
 
  private:
   struct Truth {
@@ -122,9 +125,9 @@ class MsbrdfSweep : public AccuracyEffect {
     double standard_error = 0;
     std::string failure;
   };
-  const std::vector<Truth>& truths();
-  Image simulate(double alpha, double incidence_deg, std::uint64_t rays, std::uint32_t seed,
-                 std::string& failure);
+  const std::vector<Truth>& truths(const Ranks& ranks = aloneRanks());
+  Image simulate(const Ranks& ranks, double alpha, double incidence_deg, std::uint64_t rays,
+                 std::uint32_t seed, std::string& failure);
   std::vector<Record> measureModel(const std::string& case_name, const Model& model);
   std::vector<Record> measureRays(const std::string& case_name, std::uint64_t rays);
   std::unique_ptr<FrameRenderer> frame(const Scene& scene) const;
@@ -166,21 +169,18 @@ std::string MsbrdfSweep::leftOut() const {
                                     run_.options().rays, fmt::join(left, ", "));
 }
 
-Image MsbrdfSweep::simulate(double alpha, double incidence_deg, std::uint64_t rays,
-                            std::uint32_t seed, std::string& failure) {
+// Of all `ranks`.
+Image MsbrdfSweep::simulate(const Ranks& ranks, double alpha, double incidence_deg,
+                            std::uint64_t rays, std::uint32_t seed, std::string& failure) {
   SimulationSettings settings = diffuseSettings(alpha, incidence_deg, kOrders, rays);
   settings.seed = seed;
-  Simulation simulation{settings, 0, {}};
-  while (simulation.rays_done < rays) {
-    stopIfInterrupted();
-    simulator_.advance(simulation);
-  }
+  const Simulation simulation = simulateShared(ranks, simulator_, settings, stopIfInterrupted);
   if (simulation.balance() != 1 || simulation.gaveUp() > 0)
     failure = "the simulation lost or gave up rays";
   return simulatedImage(simulation);
 }
 
-const std::vector<MsbrdfSweep::Truth>& MsbrdfSweep::truths() {
+const std::vector<MsbrdfSweep::Truth>& MsbrdfSweep::truths(const Ranks& ranks) {
   if (!truths_.empty()) return truths_;
   for (const double alpha : kAlphas)
     for (const int incidence_deg : kThetas_deg) {
@@ -188,7 +188,7 @@ const std::vector<MsbrdfSweep::Truth>& MsbrdfSweep::truths() {
       std::vector<Image> lobes;
       truth.lobe = Image(kCells, 1, 3);
       for (std::uint32_t i = 0; i < kTruthSimulations; ++i) {
-        lobes.push_back(simulate(alpha, incidence_deg,
+        lobes.push_back(simulate(ranks, alpha, incidence_deg,
                                  run_.options().rays * kTruthRays / kTruthSimulations,
                                  kFirstSimulationSeed + i, truth.failure));
         for (std::size_t k = 0; k < truth.lobe.pixels.size(); ++k)
@@ -251,7 +251,8 @@ std::vector<Record> MsbrdfSweep::measureRays(const std::string& case_name, std::
     std::string failure;
     const double standard_ms = shadeMs(*standard);
     const Stopwatch watch;
-    const Image lobe = simulate(truth.alpha, truth.incidence_deg, rays, kRivalSeed, failure);
+    const Image lobe =
+        simulate(aloneRanks(), truth.alpha, truth.incidence_deg, rays, kRivalSeed, failure);
     times.ms.push_back(watch.elapsedNs() * 1e-6);
     times.ratio.push_back(times.ms.back() / standard_ms);
     all.push_back(figures(truth, lobe));
