@@ -102,8 +102,10 @@ Cast castRays(Simulator& simulator, SharedSimulation& shared, const SimulateOpti
     while (!shared.isDone()) {
       const bool stop = shared.advance(InterruptGuard::interrupted());
       progress.show(static_cast<int>(100 * shared.cast() / total), 100, "per cent of the rays");
-      // The first rank's clock, since all have to bring their counts together.
-      const bool due = ranks.any(ranks.isFirst() && watch.elapsedNs() - saved_ns > kSaveEvery_ns);
+      const bool wants_save =
+          watch.elapsedNs() - saved_ns > kSaveEvery_ns || InterruptGuard::endIsNear();
+      // By the first rank's clock, since all have to bring their counts together.
+      const bool due = ranks.any(ranks.isFirst() && wants_save);
       if (shared.isDone() || !(stop || due)) continue;
       save();
       saved_ns = watch.elapsedNs();

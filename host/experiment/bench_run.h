@@ -80,7 +80,8 @@ class BenchRun {
   /// kinds are kept in the order of `cases`. After Ctrl-C throws Interrupted, which says what is
   /// kept. Cases for which no time is left are left out; throws Error if nothing is measured then.
   /// Of all ranks, each of which calls `measure` for the cases that are dealt to it alone; before,
-  /// if there are several and any case is missing, each calls `prepare`, which may share its work.
+  /// if a launcher started them and any case is missing, each calls `prepare`, which may share its
+  /// work.
   void measureCases(const std::string& table, const std::vector<std::string>& cases,
                     const std::vector<std::string>& metrics,
                     const std::function<std::vector<Record>(const std::string& case_name)>& measure,
@@ -122,6 +123,7 @@ class BenchRun {
   };
   std::vector<Record> loggedCase(const std::string& table, const std::string& case_name,
                                  const std::vector<std::string>& metrics) const;
+  void prepareShared(const std::function<void()>& prepare) const;
   void deal(Cases& cases, const std::vector<std::string>& metrics);
   void measureMine(Cases& cases);
   void measureOne(Cases& cases, std::size_t index, std::size_t to_come);

@@ -27,6 +27,9 @@ class InterruptGuard {
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 
   static bool interrupted();
+  /// Has this rank had a SIGCONT since it was last asked? mpirun sends one a second before SIGTERM,
+  /// and that a second before it kills: what takes long to save should be saved now.
+  static bool endIsNear();
   /// Exit code of a program that the signal of the last guard ended: 128 + its number; as for
   /// SIGINT if there was none.
   static int exitCode();
@@ -34,6 +37,7 @@ class InterruptGuard {
  private:
   void (*previous_interrupt_)(int);
   void (*previous_terminate_)(int);
+  void (*previous_continue_)(int) = nullptr;
 };
 
 }  // namespace glintmark

@@ -35,6 +35,7 @@ class MpiRanks : public LaunchedRanks {
   std::string fromFirst(const std::string& bytes) const override;
   void post(const std::string& bytes) override;
   std::vector<RankMessage> arrived() override;
+  double waitedNs() const override { return waited_.count(); }
   void leave() override;
   void abort(int exit_code) override;
 
@@ -52,7 +53,13 @@ class MpiRanks : public LaunchedRanks {
   void postPiece(std::string bytes);
 
   void (*waiting_)();
+  mutable std::chrono::duration<double, std::nano> waited_{0};
   int rank_ = 0, size_ = 1, on_this_machine_ = 1;
+  // What MPI reads and writes: it stays where it is if a wait is given up, which others do not
+  // know.
+  mutable std::vector<std::uint64_t> counts_;
+  mutable std::vector<int> lengths_, places_;
+  mutable std::string given_, received_;
   std::deque<Sent> sent_;                 // a deque: requests and bytes stay where they are
   std::map<int, Unfinished> unfinished_;  // by the rank that sends
 };
@@ -70,9 +77,13 @@ MpiRanks::MpiRanks(void (*waiting)()) : waiting_(waiting) {
 
 void MpiRanks::wait(MPI_Request& request) const {
   auto nap = kShortestNap;
+  const auto begin = std::chrono::steady_clock::now();
   for (int done = 0;;) {
     MPI_Test(&request, &done, MPI_STATUS_IGNORE);
-    if (done) return;
+    if (done) {
+      waited_ += std::chrono::steady_clock::now() - begin;
+      return;
+    }
     waiting_();
     std::this_thread::sleep_for(nap);
     nap = std::min(2 * nap, kLongestNap);
@@ -80,26 +91,32 @@ void MpiRanks::wait(MPI_Request& request) const {
 }
 
 void MpiRanks::sum(std::span<std::uint64_t> counts) const {
+  counts_.assign(counts.begin(), counts.end());
   MPI_Request request = MPI_REQUEST_NULL;
-  MPI_Iallreduce(MPI_IN_PLACE, counts.data(), static_cast<int>(counts.size()), MPI_UINT64_T,
+  MPI_Iallreduce(MPI_IN_PLACE, counts_.data(), static_cast<int>(counts_.size()), MPI_UINT64_T,
                  MPI_SUM, MPI_COMM_WORLD, &request);
   wait(request);
+  std::ranges::copy(counts_, counts.begin());
 }
 
 void MpiRanks::sumAtFirst(std::span<std::uint64_t> counts) const {
+  counts_.assign(counts.begin(), counts.end());
   MPI_Request request = MPI_REQUEST_NULL;
-  MPI_Ireduce(isFirst() ? MPI_IN_PLACE : counts.data(), isFirst() ? counts.data() : nullptr,
-              static_cast<int>(counts.size()), MPI_UINT64_T, MPI_SUM, 0, MPI_COMM_WORLD, &request);
+  MPI_Ireduce(isFirst() ? MPI_IN_PLACE : counts_.data(), isFirst() ? counts_.data() : nullptr,
+              static_cast<int>(counts_.size()), MPI_UINT64_T, MPI_SUM, 0, MPI_COMM_WORLD, &request);
   wait(request);
+  if (isFirst()) std::ranges::copy(counts_, counts.begin());
 }
 
 std::vector<std::string> MpiRanks::gather(const std::string& bytes) const {
   const auto count = static_cast<std::size_t>(size_);
-  std::vector<std::uint64_t> sizes(count, 0);
-  const std::uint64_t own = bytes.size();
+  given_ = bytes;
+  counts_.assign(count + 1, bytes.size());  // the last: this rank's
   MPI_Request request = MPI_REQUEST_NULL;
-  MPI_Iallgather(&own, 1, MPI_UINT64_T, sizes.data(), 1, MPI_UINT64_T, MPI_COMM_WORLD, &request);
+  MPI_Iallgather(&counts_.back(), 1, MPI_UINT64_T, counts_.data(), 1, MPI_UINT64_T, MPI_COMM_WORLD,
+                 &request);
   wait(request);
+  const std::vector<std::uint64_t> sizes(counts_.begin(), counts_.end() - 1);
   std::vector<std::string> all(count);
   const std::size_t most = std::max<std::size_t>(kGatherBytes / count, 1);
   for (std::size_t begin = 0; begin == 0 || begin < std::ranges::max(sizes); begin += most) {
@@ -107,33 +124,35 @@ std::vector<std::string> MpiRanks::gather(const std::string& bytes) const {
       return static_cast<int>(
           std::min<std::uint64_t>(most, size - std::min<std::uint64_t>(size, begin)));
     };
-    std::vector<int> counts(count), places(count, 0);
-    std::ranges::transform(sizes, counts.begin(), part);
-    std::exclusive_scan(counts.begin(), counts.end(), places.begin(), 0);
-    std::string received(static_cast<std::size_t>(places.back() + counts.back()), '\0');
-    const char* from = bytes.data() + std::min<std::size_t>(begin, bytes.size());
-    MPI_Iallgatherv(from, counts[static_cast<std::size_t>(rank_)], MPI_BYTE, received.data(),
-                    counts.data(), places.data(), MPI_BYTE, MPI_COMM_WORLD, &request);
+    lengths_.resize(count), places_.resize(count);
+    std::ranges::transform(sizes, lengths_.begin(), part);
+    std::exclusive_scan(lengths_.begin(), lengths_.end(), places_.begin(), 0);
+    received_.resize(static_cast<std::size_t>(places_.back() + lengths_.back()));
+    const char* from = given_.data() + std::min<std::size_t>(begin, given_.size());
+    MPI_Iallgatherv(from, lengths_[static_cast<std::size_t>(rank_)], MPI_BYTE, received_.data(),
+                    lengths_.data(), places_.data(), MPI_BYTE, MPI_COMM_WORLD, &request);
     wait(request);
     for (std::size_t i = 0; i < count; ++i)
-      all[i].append(received, static_cast<std::size_t>(places[i]),
-                    static_cast<std::size_t>(counts[i]));
+      all[i].append(received_, static_cast<std::size_t>(places_[i]),
+                    static_cast<std::size_t>(lengths_[i]));
   }
   return all;
 }
 
 std::string MpiRanks::fromFirst(const std::string& bytes) const {
-  std::uint64_t bytes_size = bytes.size();
+  counts_.assign(1, bytes.size());
   MPI_Request request = MPI_REQUEST_NULL;
-  MPI_Ibcast(&bytes_size, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD, &request);
+  MPI_Ibcast(counts_.data(), 1, MPI_UINT64_T, 0, MPI_COMM_WORLD, &request);
   wait(request);
-  std::string text = isFirst() ? bytes : std::string(bytes_size, '\0');
-  for (std::size_t begin = 0; begin < text.size(); begin += kGatherBytes) {
-    const std::size_t some = std::min(kGatherBytes, text.size() - begin);
-    MPI_Ibcast(text.data() + begin, static_cast<int>(some), MPI_BYTE, 0, MPI_COMM_WORLD, &request);
+  given_ = bytes;
+  given_.resize(counts_.front());
+  for (std::size_t begin = 0; begin < given_.size(); begin += kGatherBytes) {
+    const std::size_t some = std::min(kGatherBytes, given_.size() - begin);
+    MPI_Ibcast(given_.data() + begin, static_cast<int>(some), MPI_BYTE, 0, MPI_COMM_WORLD,
+               &request);
     wait(request);
   }
-  return text;
+  return given_;
 }
 
 void MpiRanks::postPiece(std::string bytes) {

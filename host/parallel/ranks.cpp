@@ -34,6 +34,7 @@ class AloneRanks : public Ranks {
   std::string fromFirst(const std::string& bytes) const override { return bytes; }
   void post(const std::string& bytes) override { posted_.push_back({0, bytes}); }
   std::vector<RankMessage> arrived() override { return std::exchange(posted_, {}); }
+  double waitedNs() const override { return 0; }
 
  private:
   std::vector<RankMessage> posted_;

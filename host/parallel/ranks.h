@@ -44,6 +44,9 @@ class Ranks {
   /// At the first rank: what has arrived since it was last asked; does not wait for anything.
   virtual std::vector<RankMessage> arrived() = 0;
 
+  /// How long this rank has waited for others.
+  virtual double waitedNs() const = 0;
+
   /// Of all: is it so at some rank?
   bool any(bool mine) const;
   /// Does this rank make unit `unit` of those that are dealt out one by one?

@@ -64,22 +64,6 @@ int rankOf(int pid) {
   return at == std::string::npos ? -1 : std::atoi(text.c_str() + at + kName.size());
 }
 
-// A simulation without end by two ranks that carries on from a checkpoint of one surface, once it
-// casts.
-Process startEndless(const std::string& checkpoint) {
-  const ProcessResult begun =
-      runGlintmark({"simulate", "--quiet", "--rays", "1048576", "--checkpoint", checkpoint});
-  EXPECT_EQ(begun.exit_code, 0) << begun.err;
-  return Process::byRanks(2,
-                          {"simulate", "--rays", "1e13", "--checkpoint", checkpoint, "--resume"});
-}
-
-void waitUntilItCasts(const Process& process) {
-  for (int i = 0; i < 600 && process.errSoFar().find("2 ranks share") == std::string::npos; ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
-  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
-}
-
 // Rays that a checkpoint holds.
 std::uint64_t raysIn(const std::string& checkpoint) {
   std::istringstream lines(readFile(checkpoint));
@@ -88,11 +72,43 @@ std::uint64_t raysIn(const std::string& checkpoint) {
   return std::stoull(line);
 }
 
+constexpr std::uint64_t kBegun = 1048576;
+
+// The process of a rank; 0 if it is not there yet.
+int processOf(const Process& mpirun, int rank) {
+  for (const int child : mpirun.children())
+    if (rankOf(child) == rank) return child;
+  return 0;
+}
+
+// A simulation without end by two ranks that carries on from a checkpoint of one surface. It casts
+// by then: what asks it to save is followed.
+Process startEndless(const std::string& checkpoint) {
+  const std::vector<std::string> simulate = {"simulate", "--model", "smith", "--checkpoint",
+                                             checkpoint};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), simulate.begin(), simulate.end());
+    return more;
+  };
+  const ProcessResult begun = runGlintmark(with({"--quiet", "--rays", std::to_string(kBegun)}));
+  EXPECT_EQ(begun.exit_code, 0) << begun.err;
+  return Process::byRanks(2, with({"--rays", "1e13", "--resume"}),
+                          {"OMPI_MCA_odls_base_sigkill_timeout=2"});
+}
+
+void waitUntilItCasts(const Process& process, const std::string& checkpoint) {
+  for (int i = 0; i < 600 && raysIn(checkpoint) == kBegun; ++i) {
+    if (const int first = processOf(process, 0); first > 0) kill(first, SIGCONT);
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  EXPECT_GT(raysIn(checkpoint), kBegun);
+}
+
 // Does it hold what one rank casts in as many rays?
 void expectBitsOfOneRank(const TempFolder& folder, const std::string& checkpoint) {
   const std::string other = folder / "one.sim";
-  ASSERT_EQ(runGlintmark({"simulate", "--quiet", "--rays", std::to_string(raysIn(checkpoint)),
-                          "--checkpoint", other})
+  ASSERT_EQ(runGlintmark({"simulate", "--quiet", "--model", "smith", "--rays",
+                          std::to_string(raysIn(checkpoint)), "--checkpoint", other})
                 .exit_code,
             0);
   EXPECT_EQ(readFile(checkpoint), readFile(other));
@@ -139,31 +155,30 @@ TEST_F(Ranks, AnyNumberOfThemCarriesOn) {
 TEST_F(Ranks, AnInterruptedRunKeepsWhatAllHaveCast) {
   const std::string file = folder_ / "run.sim";
   Process process = startEndless(file);
-  waitUntilItCasts(process);
+  waitUntilItCasts(process, file);
+  const std::uint64_t before = raysIn(file);
   process.interrupt();
   const ProcessResult result = process.wait();
   EXPECT_NE(result.exit_code, 0);
   const std::string said = sentences(result.err);
   EXPECT_EQ(countOf(said, "glintmark: interrupted; "), 1u) << result.err;
   EXPECT_NE(said.find("run.sim, --resume carries on"), std::string::npos) << result.err;
-  EXPECT_GT(raysIn(file), 1048576u);
+  EXPECT_GT(raysIn(file), before);
   expectBitsOfOneRank(folder_, file);
 }
 
 TEST_F(Ranks, ADeadRankLosesNothingThatWasKept) {
   const std::string file = folder_ / "run.sim";
   Process process = startEndless(file);
-  waitUntilItCasts(process);
-  int killed = 0;
-  for (const int child : process.children())
-    if (rankOf(child) == 1) killed += kill(child, SIGKILL) == 0;
-  EXPECT_EQ(killed, 1);
+  waitUntilItCasts(process, file);
+  const std::uint64_t before = raysIn(file);
+  EXPECT_EQ(kill(processOf(process, 1), SIGKILL), 0);
   const ProcessResult result = process.wait();
   EXPECT_NE(result.exit_code, 0);
   const std::string said = sentences(result.err);
   EXPECT_EQ(countOf(said, "glintmark: interrupted, and a rank did not answer; "), 1u) << result.err;
   EXPECT_NE(said.find("run.sim, --resume carries on"), std::string::npos) << result.err;
-  EXPECT_EQ(raysIn(file), 1048576u);
+  EXPECT_GE(raysIn(file), before);
   expectBitsOfOneRank(folder_, file);
 }
 
@@ -270,7 +285,9 @@ TEST_F(Ranks, FitsAreThoseOfOneRank) {
     const ProcessResult result = count == 0 ? runGlintmark(words) : runByRanks(count, words);
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(countOf(result.out, "fitted"), 1u) << result.out;
-    return readFile(file);
+    // Of mixtures the head has the time that it took, and a checksum over it stands at the end.
+    const std::string bytes = readFile(file);
+    return what == "gmm" ? bytes.substr(64, bytes.size() - 80) : bytes;
   };
   for (const char* what : {"ltc", "gmm"}) {
     const std::string alone = fitted(what, 0);
