@@ -69,7 +69,7 @@ SimulationSettings makeSettings(const SimulateOptions& options) {
 // How the casting went.
 struct Cast {
   double wall_s = 0;
-  double busy = 1;  // share of it that ranks spent casting, their mean
+  double waiting = 0;  // share of it that ranks waited for each other, their mean
 };
 
 std::string keptText(const Simulation& kept, const SimulateOptions& options) {
@@ -78,18 +78,13 @@ std::string keptText(const Simulation& kept, const SimulateOptions& options) {
                      kept.settings.rays, options.checkpoint);
 }
 
-double castNs(const Simulator& simulator) {
-  return simulator.traceNs() + simulator.surfaceNs();
-}
-
 // Casts what is missing by all ranks, with checkpoints now and then and after Ctrl-C.
-Cast castRays(Simulator& simulator, SharedSimulation& shared, const SimulateOptions& options,
-              bool quiet) {
+Cast castRays(SharedSimulation& shared, const SimulateOptions& options, bool quiet) {
   const Ranks& ranks = allRanks();
   const InterruptGuard guard;
   Progress progress(quiet);
   ranks.any(false);  // all have compiled
-  const double before_ns = castNs(simulator);
+  const double before_ns = ranks.waitedNs();
   const auto save = [&] {
     shared.collect();
     if (ranks.isFirst() && !options.checkpoint.empty())
@@ -100,27 +95,26 @@ Cast castRays(Simulator& simulator, SharedSimulation& shared, const SimulateOpti
   const Stopwatch watch;
   try {
     while (!shared.isDone()) {
-      const bool stop = shared.advance(InterruptGuard::interrupted());
-      progress.show(static_cast<int>(100 * shared.cast() / total), 100, "per cent of the rays");
-      const bool wants_save =
-          watch.elapsedNs() - saved_ns > kSaveEvery_ns || InterruptGuard::endIsNear();
       // By the first rank's clock, since all have to bring their counts together.
-      const bool due = ranks.any(ranks.isFirst() && wants_save);
-      if (shared.isDone() || !(stop || due)) continue;
+      const bool due = watch.elapsedNs() - saved_ns > kSaveEvery_ns || InterruptGuard::endIsNear();
+      const auto [stop, collect] =
+          shared.advance({InterruptGuard::interrupted(), due && ranks.isFirst()});
+      progress.show(static_cast<int>(100 * shared.cast() / total), 100, "per cent of the rays");
+      if (shared.isDone() || !(stop || collect)) continue;
       save();
       saved_ns = watch.elapsedNs();
       if (stop) throw Interrupted("interrupted; " + keptText(shared.collected(), options));
     }
+    save();
   } catch (const RankSilent&) {
     progress.clear();
     throw Interrupted("interrupted, and a rank did not answer; " +
                       keptText(shared.collected(), options));
   }
   const double wall_ns = watch.elapsedNs();
-  save();
-  std::uint64_t cast_ns = static_cast<std::uint64_t>(castNs(simulator) - before_ns);
-  ranks.sum({&cast_ns, 1});
-  return {wall_ns * 1e-9, static_cast<double>(cast_ns) / (wall_ns * ranks.size())};
+  std::uint64_t waited_ns = static_cast<std::uint64_t>(ranks.waitedNs() - before_ns);
+  ranks.sum({&waited_ns, 1});
+  return {wall_ns * 1e-9, static_cast<double>(waited_ns) / (wall_ns * ranks.size())};
 }
 
 // Where the energy went. A diffuse microfacet of albedo a keeps a of what meets it, so an order's
@@ -205,12 +199,15 @@ std::string castText(const Simulator& simulator, const SharedSimulation& shared,
     slopes = slopesText(simulator, settings);
   std::string text;
   for (const std::string& one : ranks.gather(slopes)) text += one;
-  const double seconds = ranks.size() > 1 ? cast.wall_s : castNs(simulator) * 1e-9;
+  // One process says what its kernels do; ranks, what they do together.
+  const bool launched_here = &ranks != &aloneRanks();
+  const double seconds =
+      launched_here ? cast.wall_s : (simulator.traceNs() + simulator.surfaceNs()) * 1e-9;
   text += fmt::format("{:.2f} s, {:.2f} million rays per second", seconds,
                       static_cast<double>(rays) / seconds * 1e-6);
-  if (ranks.size() > 1)
-    text += fmt::format(" by {} ranks, which cast {:.1f} % of that time", ranks.size(),
-                        100 * cast.busy);
+  if (launched_here)
+    text += fmt::format(" by {} ranks, which waited for each other {:.1f} % of that time",
+                        ranks.size(), 100 * cast.waiting);
   return text + "\n";
 }
 
@@ -231,7 +228,7 @@ int runSimulate(const CommandLine& line, const SimulateOptions& options) {
   ProgramCache cache(device);
   Simulator simulator(device, cache, chosenLanes(line.common, device));
   SharedSimulation shared(allRanks(), simulator, begun);
-  const Cast cast = castRays(simulator, shared, options, line.common.quiet);
+  const Cast cast = castRays(shared, options, line.common.quiet);
   std::string how;
   if (shared.cast() > begun.rays_done)
     how = castText(simulator, shared, cast, shared.cast() - begun.rays_done);

@@ -72,12 +72,15 @@ std::string imageBytes(const Image& image) {
           image.pixels.size() * sizeof image.pixels[0]};
 }
 
-// Adds an image of imageBytes() as the device adds a launch's sums, or begins with it.
-void addBytes(const std::string& bytes, bool begins, Image& sum) {
+// Adds the image of imageBytes() at `position` as the device adds a launch's sums, or begins with
+// it; returns its size.
+std::size_t addBytes(const std::string& bytes, std::size_t position, bool begins, Image& sum) {
   Image launch = sum;
-  bytes.copy(reinterpret_cast<char*>(launch.pixels.data()), bytes.size());
+  const std::size_t size = bytes.copy(reinterpret_cast<char*>(launch.pixels.data()),
+                                      launch.pixels.size() * sizeof(float), position);
   for (std::size_t i = 0; i < sum.pixels.size(); ++i)
     sum.pixels[i] = begins || i % 4 == 3 ? launch.pixels[i] : sum.pixels[i] + launch.pixels[i];
+  return size;
 }
 
 }  // namespace
@@ -143,21 +146,20 @@ TruthImages renderTruth(Device& device, const Scene& scene, const View& view,
   return spread.take();
 }
 
-SharedTruth::SharedTruth(const Ranks& ranks, std::size_t first_unit, int spp)
-    : ranks_(ranks), first_unit_(first_unit), spp_(spp) {}
-
-void SharedTruth::make(TruthRenderer& renderer, const std::function<void()>& progress) {
+void SharedTruth::make(TruthRenderer& renderer, RankDeal& deal,
+                       const std::function<void()>& progress) {
   const Camera& camera = renderer.camera();
   units_ = truthUnits(spp_, static_cast<double>(camera.width_px) * camera.height_px);
   frame_ = Image(camera.width_px, camera.height_px, 4);
   frame_.channel_names = {"R", "G", "B", "A"};  // as of readPlanes()
   bool prepared = false;
-  for (std::size_t i = 0; i < units_.size(); ++i) {
-    if (!ranks_.makes(first_unit_ + i)) continue;
+  for (const TruthUnit& unit : units_) {
+    makers_.push_back(deal.next(static_cast<double>(unit.count) * camera.width_px));
+    if (makers_.back() != ranks_.rank()) continue;
     if (!prepared) renderer.prepare();
     prepared = true;
     renderer.clear();
-    addUnit(renderer, units_[i]);
+    addUnit(renderer, unit);
     mine_.push_back(renderer.readSum());
     progress();
   }
@@ -166,19 +168,21 @@ void SharedTruth::make(TruthRenderer& renderer, const std::function<void()>& pro
 ReplicatedTruth SharedTruth::join() {
   ReplicatedTruth truth;
   TruthSpread spread(frame_.width, frame_.height);
-  const auto size = static_cast<std::size_t>(ranks_.size());
   Image sum = frame_;
   std::size_t taken = 0;
-  // As many batches at a time as there are ranks.
-  for (std::size_t first = 0; first < units_.size(); first += size) {
-    const std::size_t end = std::min(units_.size(), first + size);
-    std::string bytes;
+  // About as many batches at a time as there are ranks.
+  const std::size_t some = static_cast<std::size_t>(ranks_.size());
+  for (std::size_t first = 0; first < units_.size(); first += some) {
+    const std::size_t end = std::min(units_.size(), first + some);
+    std::string mine;
     for (std::size_t i = first; i < end; ++i)
-      if (ranks_.makes(first_unit_ + i)) bytes = imageBytes(mine_[taken++]);
-    const std::vector<std::string> all = ranks_.gather(bytes);
+      if (makers_[i] == ranks_.rank()) mine += imageBytes(mine_[taken++]);
+    const std::vector<std::string> all = ranks_.gather(mine);
+    std::vector<std::size_t> read(all.size(), 0);
     for (std::size_t i = first; i < end; ++i) {
       const TruthUnit& unit = units_[i];
-      addBytes(all[(first_unit_ + i) % size], unit.begin == 0, sum);
+      const auto maker = static_cast<std::size_t>(makers_[i]);
+      read[maker] += addBytes(all[maker], read[maker], unit.begin == 0, sum);
       if (!unit.isLast()) continue;
       truth.replicates.push_back(meanOf(sum, static_cast<std::uint32_t>(unit.of_replicate)));
       spread.add(truth.replicates.back(), unit.of_replicate);

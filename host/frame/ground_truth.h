@@ -69,22 +69,21 @@ struct ReplicatedTruth {
 /// are added in their order, so that every rank gets the bits that renderTruth() gives.
 class SharedTruth {
  public:
-  /// Of `spp` samples a pixel, like renderTruth(). Batch i is of the rank that makes() first_unit +
-  /// i: truths that are made before any is joined should count their batches on.
-  SharedTruth(const Ranks& ranks, std::size_t first_unit, int spp);
+  /// Of `spp` samples a pixel, like renderTruth().
+  SharedTruth(const Ranks& ranks, int spp) : ranks_(ranks), spp_(spp) {}
 
-  /// Renders this rank's batches. `progress` may throw.
-  void make(TruthRenderer& renderer, const std::function<void()>& progress);
+  /// Of all ranks: renders those batches that `deal` gives to this one. `progress` may throw.
+  /// Truths that are made with one deal before any is joined keep more ranks busy than one has
+  /// batches.
+  void make(TruthRenderer& renderer, RankDeal& deal, const std::function<void()>& progress);
   /// Of all ranks, after make(): the truth. Nothing can be joined after it.
   ReplicatedTruth join();
-  /// How many batches there are; after make().
-  std::size_t units() const { return units_.size(); }
 
  private:
   const Ranks& ranks_;
-  std::size_t first_unit_;
   int spp_;
   std::vector<TruthUnit> units_;
+  std::vector<int> makers_;  // of the units
   std::vector<Image> mine_;
   Image frame_;  // of the truth's size
 };

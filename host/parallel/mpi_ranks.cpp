@@ -15,10 +15,13 @@
 namespace glintmark {
 namespace {
 
-constexpr std::chrono::microseconds kShortestNap{20}, kLongestNap{1000};
+constexpr std::chrono::microseconds kShortestNap{20}, kLongestNap{200};
 constexpr int kMessageTag = 1;
 // Small enough for every transport of Open MPI to send it at once, before anybody asks for it.
 constexpr std::size_t kPieceBytes = 2048;
+// More numbers than these are summed without naps, which would come between their parts, once all
+// ranks are there.
+constexpr std::size_t kManyCounts = 64;
 // Of what all gather in one call: MPI counts bytes by int.
 constexpr std::size_t kGatherBytes = std::size_t{1} << 30;
 
@@ -49,7 +52,9 @@ class MpiRanks : public LaunchedRanks {
     std::size_t size = 0;
     bool has_size = false;
   };
-  void wait(MPI_Request& request) const;
+  // Naps while others may be busy with something else; without naps while they are here as well.
+  void wait(MPI_Request& request, bool naps = true) const;
+  void meet() const;
   void postPiece(std::string bytes);
 
   void (*waiting_)();
@@ -75,7 +80,13 @@ MpiRanks::MpiRanks(void (*waiting)()) : waiting_(waiting) {
   MPI_Comm_free(&machine);
 }
 
-void MpiRanks::wait(MPI_Request& request) const {
+void MpiRanks::meet() const {
+  MPI_Request request = MPI_REQUEST_NULL;
+  MPI_Ibarrier(MPI_COMM_WORLD, &request);
+  wait(request);
+}
+
+void MpiRanks::wait(MPI_Request& request, bool naps) const {
   auto nap = kShortestNap;
   const auto begin = std::chrono::steady_clock::now();
   for (int done = 0;;) {
@@ -85,26 +96,33 @@ void MpiRanks::wait(MPI_Request& request) const {
       return;
     }
     waiting_();
+    if (!naps) {
+      std::this_thread::yield();
+      continue;
+    }
     std::this_thread::sleep_for(nap);
     nap = std::min(2 * nap, kLongestNap);
   }
 }
 
 void MpiRanks::sum(std::span<std::uint64_t> counts) const {
+  const bool many = counts.size() > kManyCounts;
+  if (many) meet();
   counts_.assign(counts.begin(), counts.end());
   MPI_Request request = MPI_REQUEST_NULL;
   MPI_Iallreduce(MPI_IN_PLACE, counts_.data(), static_cast<int>(counts_.size()), MPI_UINT64_T,
                  MPI_SUM, MPI_COMM_WORLD, &request);
-  wait(request);
+  wait(request, !many);
   std::ranges::copy(counts_, counts.begin());
 }
 
 void MpiRanks::sumAtFirst(std::span<std::uint64_t> counts) const {
+  meet();
   counts_.assign(counts.begin(), counts.end());
   MPI_Request request = MPI_REQUEST_NULL;
   MPI_Ireduce(isFirst() ? MPI_IN_PLACE : counts_.data(), isFirst() ? counts_.data() : nullptr,
               static_cast<int>(counts_.size()), MPI_UINT64_T, MPI_SUM, 0, MPI_COMM_WORLD, &request);
-  wait(request);
+  wait(request, false);
   if (isFirst()) std::ranges::copy(counts_, counts.begin());
 }
 
@@ -131,7 +149,7 @@ std::vector<std::string> MpiRanks::gather(const std::string& bytes) const {
     const char* from = given_.data() + std::min<std::size_t>(begin, given_.size());
     MPI_Iallgatherv(from, lengths_[static_cast<std::size_t>(rank_)], MPI_BYTE, received_.data(),
                     lengths_.data(), places_.data(), MPI_BYTE, MPI_COMM_WORLD, &request);
-    wait(request);
+    wait(request, false);  // all have told how much they have
     for (std::size_t i = 0; i < count; ++i)
       all[i].append(received_, static_cast<std::size_t>(places_[i]),
                     static_cast<std::size_t>(lengths_[i]));
@@ -202,10 +220,7 @@ std::vector<RankMessage> MpiRanks::arrived() {
 void MpiRanks::leave() {
   for (Sent& piece : sent_) wait(piece.request);
   sent_.clear();
-  // MPI_Finalize waits with a busy core.
-  MPI_Request request = MPI_REQUEST_NULL;
-  MPI_Ibarrier(MPI_COMM_WORLD, &request);
-  wait(request);
+  meet();  // MPI_Finalize waits with a busy core
   MPI_Finalize();
 }
 

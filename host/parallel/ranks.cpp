@@ -60,6 +60,12 @@ bool Ranks::any(bool mine) const {
   return count > 0;
 }
 
+int RankDeal::next(double cost) {
+  const auto least = std::ranges::min_element(load_);
+  *least += cost;
+  return static_cast<int>(least - load_.begin());
+}
+
 Ranks& aloneRanks() {
   static AloneRanks alone;
   return alone;

@@ -88,6 +88,18 @@ int endRanks(const std::string& sentence, int exit_code);
 /// the end, since a rank that leaves early would have the launcher end all. As endRanks() else.
 int interruptRanks(const std::string& sentence, int exit_code);
 
+/// Deals units out, each to the rank that has least to do so far, of equal ones the first; every
+/// rank that asks for the same units gets the same answers.
+class RankDeal {
+ public:
+  explicit RankDeal(int ranks) : load_(static_cast<std::size_t>(ranks), 0) {}
+  /// The rank that gets the next unit, which costs so much.
+  int next(double cost);
+
+ private:
+  std::vector<double> load_;
+};
+
 /// Of all of `ranks`: rows of `row` values, of which each rank has made those that makes() says;
 /// afterwards each has all. T is trivially copyable.
 template <typename T>

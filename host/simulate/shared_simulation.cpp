@@ -18,7 +18,7 @@ SharedSimulation::SharedSimulation(const Ranks& ranks, Simulator& simulator,
   simulator_.prepare(simulation.settings);
 }
 
-bool SharedSimulation::advance(bool stop) {
+SharedSimulation::Wishes SharedSimulation::advance(const Wishes& mine) {
   const SimulationSettings& settings = simulation_.settings;
   const std::uint64_t first = cast_ / kRaysPerSurface, all = surfaceCount(settings.rays);
   const std::uint64_t end =
@@ -27,14 +27,14 @@ bool SharedSimulation::advance(bool stop) {
   for (std::uint64_t i = first; i < end; ++i)
     if (ranks_.makes(i)) simulator_.castSurface(settings, i, counts_);
   cast_ = std::min(end * kRaysPerSurface, settings.rays);
-  // Signals, and the mean time of a round, from which all derive the same length of the next.
-  std::array<std::uint64_t, 2> sums = {stop ? 1u : 0u,
-                                       static_cast<std::uint64_t>(watch.elapsedNs())};
+  // Wishes, and the mean time of a round, from which all derive the same length of the next.
+  std::array<std::uint64_t, 3> sums = {static_cast<std::uint64_t>(watch.elapsedNs()),
+                                       mine.stop ? 1u : 0u, mine.collect ? 1u : 0u};
   ranks_.sum(sums);
-  const double round_s = 1e-9 * static_cast<double>(sums[1]) / static_cast<double>(ranks_.size());
+  const double round_s = 1e-9 * static_cast<double>(sums[0]) / static_cast<double>(ranks_.size());
   const double surface_s = std::max(round_s / static_cast<double>(each_), 1e-6);
   each_ = static_cast<std::uint64_t>(std::max(1.0, kRound_s / surface_s));
-  return sums[0] > 0;
+  return {sums[1] > 0, sums[2] > 0};
 }
 
 void SharedSimulation::collect() {
@@ -48,17 +48,22 @@ bool SharedSimulation::castLast() const {
   return cast_ > 0 && ranks_.makes(surfaceCount(cast_) - 1);
 }
 
-Simulation simulateShared(const Ranks& ranks, Simulator& simulator,
-                          const SimulationSettings& settings, const std::function<void()>& stop) {
-  SharedSimulation shared(ranks, simulator, {settings, 0, {}});
-  while (!shared.isDone()) {
-    stop();
-    shared.advance(false);
+std::vector<Simulation> simulateShared(const Ranks& ranks, Simulator& simulator,
+                                       const std::vector<SimulationSettings>& runs,
+                                       const std::function<void()>& stop) {
+  RankDeal deal(ranks.size());
+  std::vector<Simulation> whole;
+  for (const SimulationSettings& settings : runs) {
+    validate(settings);
+    whole.push_back({settings, settings.rays, std::vector<std::uint64_t>(HF_HISTOGRAM_WORDS, 0)});
+    for (std::uint64_t i = 0; i < surfaceCount(settings.rays); ++i) {
+      const std::uint64_t rays = std::min(kRaysPerSurface, settings.rays - i * kRaysPerSurface);
+      if (deal.next(static_cast<double>(rays)) != ranks.rank()) continue;
+      stop();
+      simulator.castSurface(settings, i, whole.back().histogram);
+    }
   }
-  shared.collect();
-  Simulation whole = shared.collected();
-  if (!ranks.isFirst()) std::ranges::fill(whole.histogram, 0);
-  ranks.sum(whole.histogram);
+  for (Simulation& one : whole) ranks.sum(one.histogram);
   return whole;
 }
 

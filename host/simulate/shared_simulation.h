@@ -18,9 +18,13 @@ class SharedSimulation {
   SharedSimulation(const Ranks& ranks, Simulator& simulator, const Simulation& simulation);
 
   bool isDone() const { return cast_ >= simulation_.settings.rays; }
-  /// Casts at the next surfaces, as many at each rank as take about kRound_s, at least one; says
-  /// whether some rank has a signal (`stop`) to end.
-  bool advance(bool stop);
+  /// What ranks ask of each other between rounds.
+  struct Wishes {
+    bool stop = false, collect = false;
+  };
+  /// Casts at the next surfaces, as many at each rank as take about kRound_s, at least one; gives
+  /// what some rank wishes.
+  Wishes advance(const Wishes& mine);
   /// Brings the counts of all together.
   void collect();
 
@@ -42,9 +46,10 @@ class SharedSimulation {
   std::uint64_t each_ = 1;  // surfaces of a rank in a round
 };
 
-/// Of all ranks: the whole simulation, with its histogram at every rank. `stop` is called between
-/// rounds and may throw.
-Simulation simulateShared(const Ranks& ranks, Simulator& simulator,
-                          const SimulationSettings& settings, const std::function<void()>& stop);
+/// Of all ranks: whole simulations, with their histograms at every rank. Surfaces of all of them
+/// are dealt out at once. `stop` is called before each and may throw.
+std::vector<Simulation> simulateShared(const Ranks& ranks, Simulator& simulator,
+                                       const std::vector<SimulationSettings>& runs,
+                                       const std::function<void()>& stop);
 
 }  // namespace glintmark

@@ -94,15 +94,13 @@ const SampledSweep::Truth& SampledSweep::truth(std::size_t index, const Accuracy
 // Batches of all views are dealt out before any truth is put together: a view has few.
 void SampledSweep::prepareTruths() {
   std::map<std::pair<std::size_t, int>, SharedTruth> shared;
-  std::size_t units = 0;
+  RankDeal deal(allRanks().size());
   for (std::size_t i = 0; i < stages().size(); ++i)
     for (int shift = 0; shift < settings_.shifts; ++shift) {
       const View view = viewOf(stages()[i], shift);
       SharedTruth& truth =
-          shared.emplace(std::pair{i, shift}, SharedTruth(allRanks(), units, settings_.spp))
-              .first->second;
-      truth.make(*stages()[i].sampler(truthOptions(stages()[i]), &view), stopIfInterrupted);
-      units += truth.units();
+          shared.emplace(std::pair{i, shift}, SharedTruth(allRanks(), settings_.spp)).first->second;
+      truth.make(*stages()[i].sampler(truthOptions(stages()[i]), &view), deal, stopIfInterrupted);
     }
   for (auto& [key, truth] : shared)
     keepTruth(key.first, stages()[key.first], key.second, truth.join());
