@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <span>
 
@@ -33,6 +34,37 @@ struct FitLobesOptions {
   double rays = 1 << 21, mirror_rays = 1 << 17;
 };
 
+// A FittedLobe as ranks share it.
+struct LobeNumbers {
+  double alpha = 0, mu_in = 0, order = 0, share = 0;
+  std::array<double, LobeData::kCosines * LobeData::kAzimuths> energy{};
+  FreeLobe lobe{};
+  double error_unmasked = 0;
+};
+
+// Order 0, all orders together, is not fitted to.
+LobeNumbers fitOrder(const Simulation& simulation, int order) {
+  const LobeData data = makeLobeData(simulation, order);
+  LobeNumbers numbers{.alpha = data.alpha,
+                      .mu_in = data.mu_in,
+                      .order = static_cast<double>(data.order),
+                      .share = data.share};
+  std::ranges::copy(data.energy, numbers.energy.begin());
+  if (order == 0) return numbers;
+  numbers.lobe = fitLobe(data);
+  numbers.error_unmasked = fitLobe(data, false).error;
+  return numbers;
+}
+
+FittedLobe fromNumbers(const LobeNumbers& numbers) {
+  LobeData data{.alpha = numbers.alpha,
+                .mu_in = numbers.mu_in,
+                .order = static_cast<int>(numbers.order),
+                .energy = {numbers.energy.begin(), numbers.energy.end()},
+                .share = numbers.share};
+  return {std::move(data), numbers.lobe, numbers.error_unmasked};
+}
+
 class LobeFitRun {
  public:
   LobeFitRun(const CommandLine& line, const FitLobesOptions& options)
@@ -48,7 +80,6 @@ class LobeFitRun {
   std::vector<SimulationSettings> diffuseRuns() const;
   std::size_t diffuseCount() const { return kAlphas * std::size(kIncidences_deg); }
   void simulateDiffuse();
-  void fitDiffuse(const Simulation& simulation);
   int mirrorSurfaces() const;
   std::vector<double> simulateMirrors(const std::vector<SimulationSettings>& runs);
   void makeMirror();
@@ -89,36 +120,28 @@ std::vector<SimulationSettings> LobeFitRun::diffuseRuns() const {
   return runs;
 }
 
-// Each rank simulates some, and the first fits to them, a round after the other: histograms of all
-// would be too much at once.
+// Each rank simulates some and fits to them; afterwards all have all.
 void LobeFitRun::simulateDiffuse() {
   fits_.incidences_deg.assign(std::begin(kIncidences_deg), std::end(kIncidences_deg));
   for (int i = 0; i < kAlphas; ++i)
     fits_.alphas.push_back(kFirstAlpha + (kLastAlpha - kFirstAlpha) * i / (kAlphas - 1));
   const std::vector<SimulationSettings> runs = diffuseRuns();
-  const auto size = static_cast<std::size_t>(ranks_.size());
-  for (std::size_t first = 0; first < runs.size(); first += size) {
-    const std::size_t end = std::min(runs.size(), first + size);
-    Simulation mine;
-    for (std::size_t i = first; i < end; ++i)
-      if (ranks_.makes(i)) mine = simulate(runs[i], i, "diffuse surfaces");
-    for (std::size_t i = first; i < end; ++i) {
-      Simulation one{runs[i], runs[i].rays, std::vector<std::uint64_t>(HF_HISTOGRAM_WORDS, 0)};
-      if (ranks_.makes(i)) one.histogram = mine.histogram;
-      ranks_.sumAtFirst(one.histogram);
-      if (ranks_.isFirst()) fitDiffuse(one);
-    }
+  const auto orders = static_cast<std::size_t>(SimulationSettings().orders), row = orders + 1;
+  std::vector<LobeNumbers> numbers(runs.size() * row);  // of orders 1 on, then of all together
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (!ranks_.makes(i)) continue;
+    const Simulation simulation = simulate(runs[i], i, "diffuse surfaces");
+    for (std::size_t order = 0; order <= orders; ++order)
+      numbers[i * row + (order + orders) % row] = fitOrder(simulation, static_cast<int>(order));
   }
-}
-
-void LobeFitRun::fitDiffuse(const Simulation& simulation) {
-  for (int order = 1; order <= simulation.settings.orders; ++order) {
-    FittedLobe fitted{makeLobeData(simulation, order), {}, 0};
-    fitted.lobe = fitLobe(fitted.data);
-    fitted.error_unmasked = fitLobe(fitted.data, false).error;
-    fits_.lobes.push_back(std::move(fitted));
+  shareRows(ranks_, std::span(numbers), row);
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    FittedLobe fitted = fromNumbers(numbers[i]);
+    if (i % row == orders)
+      fits_.totals.push_back(std::move(fitted.data));
+    else
+      fits_.lobes.push_back(std::move(fitted));
   }
-  fits_.totals.push_back(makeLobeData(simulation, 0));
 }
 
 // Surfaces differ by half a percent of the energy, more than the rays' counting error.

@@ -27,8 +27,10 @@ namespace {
 constexpr std::size_t kTaskNormals = 16384;
 // Blocks per task.
 constexpr int kGrain = 8;
-// A batch is shared among ranks if each gets as many blocks.
-constexpr int kLeastSharedBlocks = 16;
+// What is shared among ranks takes each of them milliseconds, since telling the others takes half
+// of one: so many blocks of a batch, so many normals of a texel.
+constexpr int kLeastSharedBlocks = 256;
+constexpr double kLeastSharedNormals = 1 << 22;
 
 // Sums over the texels of a level.
 struct Tally {
@@ -141,10 +143,11 @@ class MixtureFit {
       return BlockTexels{batch, b * size, std::min(size, batch.count - b * size)};
     };
     std::vector<Tally> made;  // where ranks have a part in it
-    if (ranks_.size() > 1 && geometry.hasLongRows()) {
+    if (sharesTexels(geometry)) {
       // One after the other: every rank takes part in each.
       for (int b = 0; b < blocks; ++b) made.push_back(run(texels(b)));
-    } else if (blocks >= kLeastSharedBlocks * ranks_.size() && ranks_.size() > 1) {
+    } else if (ranks_.size() > 1 && !geometry.hasLongRows() &&
+               blocks >= kLeastSharedBlocks * ranks_.size()) {
       made.resize(static_cast<std::size_t>(blocks));
       tbb::parallel_for(0, blocks, [&](int b) {
         if (ranks_.makes(static_cast<std::size_t>(b)))
@@ -161,6 +164,12 @@ class MixtureFit {
           return tally;
         },
         [](Tally a, const Tally& b) { return a += b; });
+  }
+
+  // Do ranks share the normals below each texel?
+  bool sharesTexels(const MixtureLevel& geometry) const {
+    return ranks_.size() > 1 && geometry.hasLongRows() &&
+           geometry.normalsPerTexel() >= kLeastSharedNormals;
   }
 
   // Of all ranks: mixtures of the batch's texels, each block from the rank that has fitted it.
@@ -182,22 +191,25 @@ class MixtureFit {
       expectBlock(block, options_.lobes, scratch.view(geometry.mostNormals()), likelihood);
       return;
     }
-    expectLongRows(geometry.rows(texels.at(0)), likelihood, block);
+    expectLongRows(geometry.rows(texels.at(0)), sharesTexels(geometry) ? ranks_ : aloneRanks(),
+                   likelihood, block);
   }
 
-  void expectLongRows(const std::vector<NormalRow>& rows, bool likelihood, MixtureBlock& block) {
+  // Of all `ranks`.
+  void expectLongRows(const std::vector<NormalRow>& rows, const Ranks& ranks, bool likelihood,
+                      MixtureBlock& block) {
     const std::size_t rows_per_task = std::max<std::size_t>(1, kTaskNormals / rows[0].count);
     const std::size_t tasks = (rows.size() + rows_per_task - 1) / rows_per_task;
     using Totals = double[kMaxLobes + 1][4];
     const auto totals = std::make_unique<Totals[]>(tasks);
     tbb::parallel_for(std::size_t{0}, tasks, [&](std::size_t task) {
-      if (!ranks_.makes(task)) return;
+      if (!ranks.makes(task)) return;
       const std::size_t first = task * rows_per_task;
       expectRows(block, options_.lobes, rows.data() + first,
                  std::min(rows_per_task, rows.size() - first), likelihood, totals[task]);
     });
     constexpr std::size_t kNumbers = sizeof(Totals) / sizeof(double);
-    shareRows(ranks_, std::span(&totals[0][0][0], tasks * kNumbers), kNumbers);
+    shareRows(ranks, std::span(&totals[0][0][0], tasks * kNumbers), kNumbers);
     for (std::size_t task = 1; task < tasks; ++task) {
       for (int i = 0; i <= options_.lobes; ++i) {
         for (int k = 0; k < 4; ++k) totals[0][i][k] += totals[task][i][k];

@@ -281,7 +281,7 @@ TEST_F(Ranks, FitsAreThoseOfOneRank) {
     const std::string file = folder_ / (what + std::to_string(count));
     std::vector<std::string> words = {"fit", "ltc", "--size", "8", "--quiet", "-o", file};
     if (what == "gmm")
-      words = {"fit", "gmm", "disk", "--size", "64", "--refit", "--quiet", "-o", file};
+      words = {"fit", "gmm", "disk", "--size", "512", "--refit", "--quiet", "-o", file};
     const ProcessResult result = count == 0 ? runGlintmark(words) : runByRanks(count, words);
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(countOf(result.out, "fitted"), 1u) << result.out;
