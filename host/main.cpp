@@ -5,11 +5,13 @@
 #include <exception>
 #include <iostream>
 #include <new>
+#include <string>
 #include <system_error>
 
 #include "host/cli/program.h"
 #include "host/core/error.h"
 #include "host/experiment/interrupt.h"
+#include "host/parallel/ranks.h"
 
 namespace {
 
@@ -23,26 +25,27 @@ int afterOutput(int code) {
   return glintmark::kExitBadInput;
 }
 
+int internalError(const std::exception& error) {
+  return glintmark::endRanks(std::string("internal error: ") + error.what(),
+                             glintmark::kExitCheckFailed);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
-    return afterOutput(glintmark::runProgram(argc, argv));
+    return glintmark::leaveRanks(afterOutput(glintmark::runProgram(argc, argv)));
   } catch (const glintmark::Error& error) {
-    std::fprintf(stderr, "glintmark: %s\n", error.what());
-    return error.code();
+    return glintmark::endRanks(error.what(), error.code());
   } catch (const glintmark::Interrupted& interrupted) {
-    std::fprintf(stderr, "glintmark: %s\n", interrupted.what());
-    return glintmark::InterruptGuard::exitCode();
+    return glintmark::interruptRanks(interrupted.what(), glintmark::InterruptGuard::exitCode());
   } catch (const std::system_error& error) {
     if (std::ferror(stdout)) return afterOutput(glintmark::kExitBadInput);
-    std::fprintf(stderr, "glintmark: internal error: %s\n", error.what());
-    return glintmark::kExitCheckFailed;
+    return internalError(error);
   } catch (const std::bad_alloc&) {
-    std::fprintf(stderr, "glintmark: out of memory; choose a smaller --size or scene\n");
-    return glintmark::kExitBadInput;
+    return glintmark::endRanks("out of memory; choose a smaller --size or scene",
+                               glintmark::kExitBadInput);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "glintmark: internal error: %s\n", error.what());
-    return glintmark::kExitCheckFailed;
+    return internalError(error);
   }
 }

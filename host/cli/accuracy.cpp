@@ -43,6 +43,7 @@ void addAccuracyCommand(Command app, CommandLine& line) {
       "  glintmark accuracy ltc gmm --json accuracy.json\n"
       "  glintmark accuracy msbrdf --rays 10000000");
   command.callback([options, selection, &line] {
+    line.shares_work = true;
     line.action = [options, selection, &line] { return runAccuracy(line, *selection, *options); };
   });
 }

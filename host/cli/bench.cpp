@@ -50,6 +50,7 @@ void addBenchCommand(Command app, CommandLine& line) {
       "  glintmark bench tan05 --scene disk --trace trace.json    (open it at ui.perfetto.dev)");
   command.callback([options, tables, noise_percent, &line] {
     options->noise = *noise_percent / 100;
+    line.shares_work = line.common.own_device = true;
     line.action = [options, tables, &line] { return runBench(line, *tables, *options); };
   });
 }

@@ -11,6 +11,7 @@ namespace glintmark {
 /// returns the exit code.
 struct CommandLine : Session {
   std::function<int()> action;
+  bool shares_work = false;  // among ranks; a command that does not is refused to several
 };
 
 void addInfoCommand(Command app, CommandLine& line);

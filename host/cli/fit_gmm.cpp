@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "host/cli/fit_commands.h"
 #include "host/core/atomic_file.h"
@@ -18,6 +19,8 @@
 #include "host/mixture/mixture_cache.h"
 #include "host/mixture/mixture_error.h"
 #include "host/mixture/mixture_file.h"
+#include "host/mixture/shared_mixture_fit.h"
+#include "host/parallel/ranks.h"
 #include "host/report/picture/image_io.h"
 #include "host/report/picture/picture_strip.h"
 #include "host/report/record/text_table.h"
@@ -81,6 +84,9 @@ void checkFitGmm(FitGmmCommand& command) {
   command.options.order = parseMixtureOrder(command.order);
   command.options.surface =
       static_cast<MixtureSurface>(choice("--surface", command.surface, kSurfaces));
+  if (command.on == "device" && allRanks().size() > 1)
+    throw Error("--on device fits on one device; start it without mpirun, or share --on host");
+  if (!allRanks().isFirst()) return;
   if (!command.output.empty()) requireWritableFile(command.output);
   if (!command.picture.empty()) requireWritablePicture(command.picture);
 }
@@ -128,6 +134,21 @@ NormalMap loadMap(const CommonOptions& common, FitGmmCommand& command) {
   return readNormalMap(command.source, readNormals, decoding);
 }
 
+// Of all ranks: what the first has in its cache, or a fit that it puts there.
+Fitted fitByRanks(const FitGmmCommand& command, NormalMap map,
+                  const std::function<void(double)>& show) {
+  const Ranks& ranks = allRanks();
+  const DiskCache cache = DiskCache::fromEnvironment();
+  const std::string key = mixtureKey(map, command.options);
+  std::optional<NormalMixtures> known;
+  if (ranks.isFirst() && !command.refit)
+    if (const auto bytes = cache.load(key, key)) known = mixturesFromBytes(*bytes);
+  const bool fits = !ranks.any(known.has_value());
+  if (fits) known = fitMixturesShared(ranks, map, command.options, show);
+  if (fits && !command.refit && ranks.isFirst()) cache.store(key, key, mixtureBytes(*known));
+  return {std::move(map), known ? std::move(*known) : NormalMixtures(), fits};
+}
+
 Fitted fitMap(const CommonOptions& common, const FitGmmCommand& command, NormalMap map) {
   const InterruptGuard guard;
   Progress progress(common.quiet);
@@ -142,10 +163,7 @@ Fitted fitMap(const CommonOptions& common, const FitGmmCommand& command, NormalM
         fitMixturesOnDevice(device, cache, chosenLanes(common, device), map, command.options, show);
     return {std::move(map), std::move(mixtures), true};
   }
-  if (command.refit) {
-    NormalMixtures mixtures = fitNormalMixtures(map, command.options, show);
-    return {std::move(map), std::move(mixtures), true};
-  }
+  if (command.refit || allRanks().size() > 1) return fitByRanks(command, std::move(map), show);
   CachedMixtures cached =
       cachedNormalMixtures(map, command.options, DiskCache::fromEnvironment(), show);
   return {std::move(map), std::move(cached.mixtures), !cached.from_cache};
@@ -232,6 +250,7 @@ int runFitGmm(const CommonOptions& common, FitGmmCommand& command) {
   NormalMap map = loadMap(common, command);
   const Fitted fitted = command.check.empty() ? fitMap(common, command, std::move(map))
                                               : readFitted(command, std::move(map));
+  if (!allRanks().isFirst()) return kExitDone;
   if (!command.output.empty()) writeFile(command.output, serializeMixtures(fitted.mixtures));
   if (!command.picture.empty()) writeMixturePicture(command, fitted);
   printReport(command, fitted);
@@ -288,6 +307,7 @@ void addFitGmmCommand(Command fit, CommandLine& line) {
   command.callback([options, lobes, height_scale, &line] {
     options->has_lobes = lobes.given();
     options->has_height_scale = height_scale.given();
+    line.shares_work = true;
     line.action = [options, &line] { return runFitGmm(line.common, *options); };
   });
 }

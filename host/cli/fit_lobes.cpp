@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
+#include <span>
 
 #include "host/cli/fit_commands.h"
 #include "host/core/atomic_file.h"
@@ -11,6 +13,7 @@
 #include "host/core/stopwatch.h"
 #include "host/experiment/interrupt.h"
 #include "host/experiment/msbrdf/lobe_report.h"
+#include "host/parallel/ranks.h"
 #include "host/reference/microfacet.h"
 #include "host/report/picture/image_io.h"
 
@@ -31,6 +34,37 @@ struct FitLobesOptions {
   double rays = 1 << 21, mirror_rays = 1 << 17;
 };
 
+// A FittedLobe as ranks share it.
+struct LobeNumbers {
+  double alpha = 0, mu_in = 0, order = 0, share = 0;
+  std::array<double, LobeData::kCosines * LobeData::kAzimuths> energy{};
+  FreeLobe lobe{};
+  double error_unmasked = 0;
+};
+
+// Order 0, all orders together, is not fitted to.
+LobeNumbers fitOrder(const Simulation& simulation, int order) {
+  const LobeData data = makeLobeData(simulation, order);
+  LobeNumbers numbers{.alpha = data.alpha,
+                      .mu_in = data.mu_in,
+                      .order = static_cast<double>(data.order),
+                      .share = data.share};
+  std::ranges::copy(data.energy, numbers.energy.begin());
+  if (order == 0) return numbers;
+  numbers.lobe = fitLobe(data);
+  numbers.error_unmasked = fitLobe(data, false).error;
+  return numbers;
+}
+
+FittedLobe fromNumbers(const LobeNumbers& numbers) {
+  LobeData data{.alpha = numbers.alpha,
+                .mu_in = numbers.mu_in,
+                .order = static_cast<int>(numbers.order),
+                .energy = {numbers.energy.begin(), numbers.energy.end()},
+                .share = numbers.share};
+  return {std::move(data), numbers.lobe, numbers.error_unmasked};
+}
+
 class LobeFitRun {
  public:
   LobeFitRun(const CommandLine& line, const FitLobesOptions& options)
@@ -42,49 +76,71 @@ class LobeFitRun {
   int run();
 
  private:
-  Simulation simulate(SimulationSettings settings, const std::string& what);
+  Simulation simulate(const SimulationSettings& settings, std::size_t index, const char* what);
+  std::vector<SimulationSettings> diffuseRuns() const;
+  std::size_t diffuseCount() const { return kAlphas * std::size(kIncidences_deg); }
   void simulateDiffuse();
   int mirrorSurfaces() const;
-  double mirrorEnergy(double alpha, double mu);
+  std::vector<double> simulateMirrors(const std::vector<SimulationSettings>& runs);
   void makeMirror();
   std::string tables() const;
 
+  const Ranks& ranks_ = allRanks();
   const FitLobesOptions& options_;
   Device device_;
   ProgramCache cache_;
   Simulator simulator_;
   Progress progress_;
-  int done_ = 0;
   LobeFits fits_;
 };
 
-Simulation LobeFitRun::simulate(SimulationSettings settings, const std::string& what) {
+// Run `index` of all; a run's seed is the number behind.
+Simulation LobeFitRun::simulate(const SimulationSettings& settings, std::size_t index,
+                                const char* what) {
   if (InterruptGuard::interrupted()) throw Interrupted("interrupted; nothing is written");
-  const int total = kAlphas * static_cast<int>(std::size(kIncidences_deg)) +
-                    kMirrorAlphas * (kMirrorNodes - 1) * mirrorSurfaces();
-  progress_.show(done_++, total, what);
-  return simulator_.run(settings);
+  const std::size_t total =
+      diffuseCount() +
+      static_cast<std::size_t>(kMirrorAlphas * (kMirrorNodes - 1) * mirrorSurfaces());
+  progress_.show(static_cast<int>(index), static_cast<int>(total), what);
+  SimulationSettings seeded = settings;
+  seeded.seed = static_cast<std::uint32_t>(index + 1);
+  return simulator_.run(seeded);
 }
 
-void LobeFitRun::simulateDiffuse() {
-  fits_.incidences_deg.assign(std::begin(kIncidences_deg), std::end(kIncidences_deg));
-  for (int i = 0; i < kAlphas; ++i) {
-    fits_.alphas.push_back(kFirstAlpha + (kLastAlpha - kFirstAlpha) * i / (kAlphas - 1));
-    for (const double incidence_deg : kIncidences_deg) {
+std::vector<SimulationSettings> LobeFitRun::diffuseRuns() const {
+  std::vector<SimulationSettings> runs;
+  for (const double alpha : fits_.alphas)
+    for (const double incidence_deg : fits_.incidences_deg) {
       SimulationSettings s;
-      s.alpha = glm::dvec2(fits_.alphas.back());
+      s.alpha = glm::dvec2(alpha);
       s.incidence_deg = incidence_deg;
       s.rays = static_cast<std::uint64_t>(options_.rays);
-      s.seed = static_cast<std::uint32_t>(done_ + 1);
-      const Simulation simulation = simulate(s, "diffuse surfaces");
-      for (int order = 1; order <= s.orders; ++order) {
-        FittedLobe fitted{makeLobeData(simulation, order), {}, 0};
-        fitted.lobe = fitLobe(fitted.data);
-        fitted.error_unmasked = fitLobe(fitted.data, false).error;
-        fits_.lobes.push_back(std::move(fitted));
-      }
-      fits_.totals.push_back(makeLobeData(simulation, 0));
+      runs.push_back(s);
     }
+  return runs;
+}
+
+// Each rank simulates some and fits to them; afterwards all have all.
+void LobeFitRun::simulateDiffuse() {
+  fits_.incidences_deg.assign(std::begin(kIncidences_deg), std::end(kIncidences_deg));
+  for (int i = 0; i < kAlphas; ++i)
+    fits_.alphas.push_back(kFirstAlpha + (kLastAlpha - kFirstAlpha) * i / (kAlphas - 1));
+  const std::vector<SimulationSettings> runs = diffuseRuns();
+  const auto orders = static_cast<std::size_t>(SimulationSettings().orders), row = orders + 1;
+  std::vector<LobeNumbers> numbers(runs.size() * row);  // of orders 1 on, then of all together
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (!ranks_.makes(i)) continue;
+    const Simulation simulation = simulate(runs[i], i, "diffuse surfaces");
+    for (std::size_t order = 0; order <= orders; ++order)
+      numbers[i * row + (order + orders) % row] = fitOrder(simulation, static_cast<int>(order));
+  }
+  shareRows(ranks_, std::span(numbers), row);
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    FittedLobe fitted = fromNumbers(numbers[i]);
+    if (i % row == orders)
+      fits_.totals.push_back(std::move(fitted.data));
+    else
+      fits_.lobes.push_back(std::move(fitted));
   }
 }
 
@@ -94,7 +150,7 @@ int LobeFitRun::mirrorSurfaces() const {
       std::clamp(options_.mirror_rays / kRaysPerMirrorSurface, 1.0, kMostMirrorSurfaces));
 }
 
-double LobeFitRun::mirrorEnergy(double alpha, double mu) {
+SimulationSettings mirrorRun(double alpha, double mu, double rays) {
   SimulationSettings s;
   s.kind = SurfaceKind::kMetal;
   s.index_n = 0.05;  // with k this large the Fresnel term is 1 to six digits
@@ -102,31 +158,47 @@ double LobeFitRun::mirrorEnergy(double alpha, double mu) {
   s.alpha = glm::dvec2(alpha);
   s.incidence_deg = glm::degrees(std::acos(std::min(mu, 1.0)));
   s.orders = 1;
-  s.rays = static_cast<std::uint64_t>(options_.mirror_rays / mirrorSurfaces());
-  double sum = 0;
-  for (int k = 0; k < mirrorSurfaces(); ++k) {
-    s.seed = static_cast<std::uint32_t>(done_ + 1);
-    sum += orderEnergy(simulate(s, "mirrors"), 1);
-  }
-  return sum / mirrorSurfaces();
+  s.rays = static_cast<std::uint64_t>(rays);
+  return s;
+}
+
+// The energy that is reflected in each of the runs, a mean over surfaces. Ranks share them.
+std::vector<double> LobeFitRun::simulateMirrors(const std::vector<SimulationSettings>& runs) {
+  const auto surfaces = static_cast<std::size_t>(mirrorSurfaces());
+  std::vector<double> energies(runs.size() * surfaces);
+  for (std::size_t i = 0; i < energies.size(); ++i)
+    if (ranks_.makes(i))
+      energies[i] = orderEnergy(simulate(runs[i / surfaces], diffuseCount() + i, "mirrors"), 1);
+  shareRows(ranks_, std::span(energies), 1);
+  std::vector<double> means(runs.size(), 0);
+  for (std::size_t i = 0; i < energies.size(); ++i) means[i / surfaces] += energies[i];
+  for (double& mean : means) mean /= static_cast<double>(surfaces);
+  return means;
 }
 
 void LobeFitRun::makeMirror() {
   MirrorAlbedo& table = fits_.data.mirror;
   for (int j = 0; j < kMirrorNodes; ++j)
     table.warped.push_back(static_cast<double>(j) / (kMirrorNodes - 1));
+  std::vector<SimulationSettings> runs;
   for (int i = 0; i < kMirrorAlphas; ++i) {
     const double alpha = i < 2 ? (i + 1) / 64.0 : (i - 1) / 16.0;
     table.alphas.push_back(alpha);
+    for (const double t : table.warped)
+      if (const double mu = MirrorAlbedo::cosine(alpha, t); mu > 0)
+        runs.push_back(mirrorRun(alpha, mu, options_.mirror_rays / mirrorSurfaces()));
+  }
+  const std::vector<double> energies = simulateMirrors(runs);
+  auto energy = energies.begin();
+  for (const double alpha : table.alphas)
     for (const double t : table.warped) {
       const double mu = MirrorAlbedo::cosine(alpha, t);
       // At the horizon a surface shows its peaks only, and nothing is lost.
-      table.simulated.push_back(mu > 0 ? mirrorEnergy(alpha, mu) : 1);
+      table.simulated.push_back(mu > 0 ? *energy++ : 1);
       const double lobe = reference::microfacetAlbedo(reference::Ndf::kBeckmann, mu, alpha,
                                                       reference::SmithForm::kRational);
       table.lobe.push_back(mu > 0 ? std::min(lobe, 1.0) : 1);
     }
-  }
 }
 
 std::string LobeFitRun::tables() const {
@@ -161,6 +233,9 @@ int LobeFitRun::run() {
   const Stopwatch watch;
   simulateDiffuse();
   const double diffuse_s = watch.elapsedNs() * 1e-9;
+  makeMirror();
+  progress_.clear();
+  if (!ranks_.isFirst()) return kExitDone;
   std::vector<LobeData> all;
   for (const FittedLobe& f : fits_.lobes) all.push_back(f.data);
   const Stopwatch fit_watch;
@@ -168,8 +243,6 @@ int LobeFitRun::run() {
   fits_.masked = fitPolynomials(all, true);
   fits_.data.eon = fitEonRoughness(fits_.totals);
   const double polynomials_s = fit_watch.elapsedNs() * 1e-9;
-  makeMirror();
-  progress_.clear();
   fits_.data.source = fmt::format(
       "glintmark fit lobes: {} rays each at {} roughnesses and {} incidences, mirror: {} rays each",
       options_.rays, kAlphas, std::size(kIncidences_deg), options_.mirror_rays);
@@ -191,6 +264,7 @@ void checkFitLobes(const FitLobesOptions& options) {
     if (!(rays >= kLeastRays && rays <= kMostRays))
       throw Error(fmt::format("{} {} is not possible; it must be {:g} to {:g}", name, rays,
                               kLeastRays, kMostRays));
+  if (!allRanks().isFirst()) return;
   if (!options.picture.empty()) requireWritablePicture(options.picture);
   requireWritableFolder(options.folder);
   if (!options.data.empty()) requireWritableFile(options.data);
@@ -219,8 +293,10 @@ void addFitLobesCommand(Command fit, CommandLine& line) {
       "Examples:\n"
       "  glintmark fit lobes --rays 100000 --mirror-rays 10000 --picture residuals.png\n"
       "  glintmark fit lobes --data data/multiscatter.json");
-  command.callback(
-      [options, &line] { line.action = [options, &line] { return runFitLobes(line, *options); }; });
+  command.callback([options, &line] {
+    line.shares_work = true;
+    line.action = [options, &line] { return runFitLobes(line, *options); };
+  });
 }
 
 }  // namespace glintmark

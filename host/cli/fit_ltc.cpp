@@ -12,6 +12,7 @@
 #include "host/experiment/interrupt.h"
 #include "host/fit/ltc_error.h"
 #include "host/fit/ltc_fit.h"
+#include "host/parallel/ranks.h"
 #include "host/report/picture/image_io.h"
 #include "host/report/picture/matrix_picture.h"
 #include "host/report/record/text_table.h"
@@ -41,8 +42,8 @@ reference::Ndf parseNdf(const std::string& name) {
 
 void checkFitLtc(const FitLtcCommand& command) {
   parseNdf(command.ndf);
-  if (!command.output.empty()) requireWritableFile(command.output);
-  if (!command.picture.empty()) requireWritablePicture(command.picture);
+  if (allRanks().isFirst() && !command.output.empty()) requireWritableFile(command.output);
+  if (allRanks().isFirst() && !command.picture.empty()) requireWritablePicture(command.picture);
   if (command.size < LTC_SIZE_MIN || command.size > LTC_SIZE_MAX) {
     throw Error(fmt::format("--size {} is not possible; sizes are {} to {}", command.size,
                             LTC_SIZE_MIN, LTC_SIZE_MAX));
@@ -53,15 +54,18 @@ LtcTable fitWithProgress(const FitLtcCommand& command, const CommonOptions& comm
   const InterruptGuard guard;
   Progress progress(common.quiet);
   const Stopwatch stopwatch;
-  LtcTable table = fitLtcTable({.ndf = parseNdf(command.ndf),
-                                .size = command.size,
-                                .threads = common.threads,
-                                .progress = [&](double share) {
-                                  if (InterruptGuard::interrupted()) {
-                                    throw Interrupted("interrupted; nothing was written");
-                                  }
-                                  progress.show(static_cast<int>(share * 100), 100, "% of the fit");
-                                }});
+  LtcTable table =
+      fitLtcTable({.ndf = parseNdf(command.ndf),
+                   .size = command.size,
+                   .threads = common.threads,
+                   .progress =
+                       [&](double share) {
+                         if (InterruptGuard::interrupted()) {
+                           throw Interrupted("interrupted; nothing was written");
+                         }
+                         progress.show(static_cast<int>(share * 100), 100, "% of the fit");
+                       },
+                   .ranks = &allRanks()});
   progress.clear();
   fmt::print("fitted {} {}x{} in {:.1f} s\n", command.ndf, command.size, command.size,
              stopwatch.elapsedNs() * 1e-9);
@@ -131,6 +135,7 @@ int runFitLtc(const CommonOptions& common, const FitLtcCommand& command) {
   if (!command.compare.empty()) published = readPublishedLtc(command.compare);
   const LtcTable table =
       command.shipped ? shippedLtcTable(parseNdf(command.ndf)) : fitWithProgress(command, common);
+  if (!allRanks().isFirst()) return kExitDone;
   if (!command.compare.empty() && (published.size != table.size || published.ndf != table.ndf)) {
     throw Error(fmt::format("{} is a ggx table of size {}; compare with --ndf ggx --size {}",
                             command.compare, published.size, published.size));
@@ -163,6 +168,7 @@ void addFitLtcCommand(Command fit, CommandLine& line) {
       "  glintmark fit ltc --ndf beckmann -o ltc_beckmann.table\n"
       "  glintmark fit ltc --shipped --picture fit_error.png");
   command.callback([options, &line] {
+    line.shares_work = true;
     line.action = [options, &line] { return runFitLtc(line.common, *options); };
   });
 }

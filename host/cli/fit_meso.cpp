@@ -4,7 +4,9 @@
 #include <memory>
 
 #include "host/cli/fit_commands.h"
+#include "host/core/error.h"
 #include "host/fit/meso_fit.h"
+#include "host/parallel/ranks.h"
 #include "host/reference/scaled_cosine.h"
 #include "host/report/record/text_table.h"
 
@@ -25,7 +27,8 @@ std::vector<std::string> errorRow(const std::string& name, const MesoErrors& err
 }
 
 int runFitMeso(int count) {
-  const MesoGrid grid = computeMesoGrid(count);
+  const MesoGrid grid = computeMesoGrid(count, allRanks());
+  if (!allRanks().isFirst()) return kExitDone;
   const MesoConstants constants = fitMeso(grid), shipped = shippedMesoConstants();
   printConstants(constants);
   const auto errors = [&](const MesoConstants& of) {
@@ -37,7 +40,7 @@ int runFitMeso(int count) {
   table.addRow(errorRow("[TAO21] Eq. 7, clamped", mesoErrors(grid, reference::tao21OverallAlpha)));
   fmt::print("{}inverse of the mean length: relative error at most {:.1e}\n", table.toString(),
              mesoInverseError(constants));
-  return 0;
+  return kExitDone;
 }
 
 }  // namespace
@@ -47,7 +50,10 @@ void addFitMesoCommand(Command fit, CommandLine& line) {
   Command command = fit.subcommand(
       "meso", "Constants of the meso scale: mean length to roughness, roughness of both scales");
   command.option("--grid", *count, "Roughnesses along each axis, 1 to 33 (default: 32)");
-  command.callback([count, &line] { line.action = [count] { return runFitMeso(*count); }; });
+  command.callback([count, &line] {
+    line.shares_work = true;
+    line.action = [count] { return runFitMeso(*count); };
+  });
 }
 
 }  // namespace glintmark

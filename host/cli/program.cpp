@@ -1,11 +1,16 @@
 #include "host/cli/program.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <optional>
 
 #include "host/cli/command_line.h"
+#include "host/core/error.h"
 #include "host/core/progress.h"
+#include "host/parallel/ranks.h"
 #include "host/report/record/machine.h"
 #include "host/report/record/run_info.h"
 
@@ -44,6 +49,29 @@ void addCommonOptions(Command app, CommonOptions& common) {
   app.flag("--quiet", common.quiet, "No progress and no notes on stderr");
 }
 
+// What is printed is the first rank's.
+void muteOutput() {
+  if (std::freopen("/dev/null", "w", stdout) == nullptr)
+    throw Error("cannot open /dev/null for what a rank prints");
+}
+
+// Joins the ranks of mpirun, if there are any, and shares the processors of this machine out.
+void joinRanksOf(CommandLine& line) {
+  if (!line.shares_work && launched().size > 1)
+    throw Error(fmt::format(
+        "this command does not share its work among {} ranks; start it without mpirun, or share "
+        "simulate, accuracy, bench or fit",
+        launched().size));
+  joinRanks();
+  const Ranks& ranks = allRanks();
+  if (!ranks.isFirst()) line.common.quiet = true;
+  // Threads beyond a control group's quota would only wait for each other; ranks that are not bound
+  // to processors of their own all see the same ones.
+  if (line.common.threads != 0) return;
+  const auto all = static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN));
+  line.common.threads = std::min(usableCores(), std::max(1, all / ranks.onThisMachine()));
+}
+
 }  // namespace
 
 int runProgram(int argc, const char* const* argv) {
@@ -72,10 +100,12 @@ int runProgram(int argc, const char* const* argv) {
   addVerifyCommand(app, line);
   app.shareOptions();
 
+  if (launched().rank > 0) muteOutput();
   if (const std::optional<int> done = parser.parse(argc, argv)) return *done;
   // Threads beyond a control group's quota would only wait for each other.
   if (line.common.threads == 0) line.common.threads = usableCores();
   if (line.common.quiet) Progress::silenceAll();
+  joinRanksOf(line);
   return line.action();
 }
 

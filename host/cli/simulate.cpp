@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <memory>
 #include <numbers>
-#include <optional>
 
 #include "host/cli/command_line.h"
 #include "host/core/atomic_file.h"
@@ -13,16 +12,18 @@
 #include "host/core/stopwatch.h"
 #include "host/experiment/interrupt.h"
 #include "host/experiment/msbrdf/lobe_picture.h"
+#include "host/parallel/ranks.h"
 #include "host/report/picture/image_io.h"
 #include "host/report/record/folder_lock.h"
 #include "host/report/record/text_table.h"
+#include "host/simulate/shared_simulation.h"
 #include "host/simulate/simulation.h"
 #include "host/simulate/simulation_file.h"
 
 namespace glintmark {
 namespace {
 
-constexpr double kCheckpointEvery_ns = 10e9;
+constexpr double kSaveEvery_ns = 10e9;
 
 struct SimulateOptions {
   std::string surface = "diffuse", model = "heights";
@@ -65,36 +66,55 @@ SimulationSettings makeSettings(const SimulateOptions& options) {
   return settings;
 }
 
-// Casts what is missing, with checkpoints now and then and after Ctrl-C.
-void castRays(Simulator& simulator, Simulation& simulation, const SimulateOptions& options,
-              bool quiet) {
+// How the casting went.
+struct Cast {
+  double wall_s = 0;
+  double waiting = 0;  // share of it that ranks waited for each other, their mean
+};
+
+std::string keptText(const Simulation& kept, const SimulateOptions& options) {
+  if (options.checkpoint.empty()) return "nothing is kept without --checkpoint FILE";
+  return fmt::format("{} of {} rays are kept in {}, --resume carries on", kept.rays_done,
+                     kept.settings.rays, options.checkpoint);
+}
+
+// Casts what is missing by all ranks, with checkpoints now and then and after Ctrl-C.
+Cast castRays(SharedSimulation& shared, const SimulateOptions& options, bool quiet) {
+  const Ranks& ranks = allRanks();
   const InterruptGuard guard;
   Progress progress(quiet);
+  ranks.any(false);  // all have compiled
+  const double before_ns = ranks.waitedNs();
   const auto save = [&] {
-    if (!options.checkpoint.empty()) writeFile(options.checkpoint, packSimulation(simulation));
+    shared.collect();
+    if (ranks.isFirst() && !options.checkpoint.empty())
+      writeFile(options.checkpoint, packSimulation(shared.collected()));
   };
-  const std::uint64_t total = simulation.settings.rays;
+  const std::uint64_t total = shared.collected().settings.rays;
   double saved_ns = 0;
   const Stopwatch watch;
-  while (simulation.rays_done < total) {
-    simulator.advance(simulation);
-    progress.show(static_cast<int>(100 * simulation.rays_done / total), 100,
-                  "per cent of the rays");
-    const bool stop = InterruptGuard::interrupted() && simulation.rays_done < total;
-    if (stop || watch.elapsedNs() - saved_ns > kCheckpointEvery_ns) {
+  try {
+    while (!shared.isDone()) {
+      // By the first rank's clock, since all have to bring their counts together.
+      const bool due = watch.elapsedNs() - saved_ns > kSaveEvery_ns || InterruptGuard::endIsNear();
+      const auto [stop, collect] =
+          shared.advance({InterruptGuard::interrupted(), due && ranks.isFirst()});
+      progress.show(static_cast<int>(100 * shared.cast() / total), 100, "per cent of the rays");
+      if (shared.isDone() || !(stop || collect)) continue;
       save();
       saved_ns = watch.elapsedNs();
+      if (stop) throw Interrupted("interrupted; " + keptText(shared.collected(), options));
     }
-    if (stop) {
-      progress.clear();
-      throw Interrupted(options.checkpoint.empty()
-                            ? "interrupted; nothing is kept without --checkpoint FILE"
-                            : fmt::format("interrupted; {} of {} rays are kept in {}, --resume "
-                                          "carries on",
-                                          simulation.rays_done, total, options.checkpoint));
-    }
+    save();
+  } catch (const RankSilent&) {
+    progress.clear();
+    throw Interrupted("interrupted, and a rank did not answer; " +
+                      keptText(shared.collected(), options));
   }
-  save();
+  const double wall_ns = watch.elapsedNs();
+  std::uint64_t waited_ns = static_cast<std::uint64_t>(ranks.waitedNs() - before_ns);
+  ranks.sum({&waited_ns, 1});
+  return {wall_ns * 1e-9, static_cast<double>(waited_ns) / (wall_ns * ranks.size())};
 }
 
 // Where the energy went. A diffuse microfacet of albedo a keeps a of what meets it, so an order's
@@ -151,38 +171,76 @@ std::string slopesText(const Simulator& simulator, const SimulationSettings& set
       nominal.x, nominal.y, 2 * nominal.x * m.variance_x, 2 * nominal.y * m.variance_y);
 }
 
-int runSimulate(const CommandLine& line, const SimulateOptions& options) {
-  const SimulationSettings settings = makeSettings(options);
+// What of the files belongs to the first rank alone: whether they can be written, and the lock.
+std::unique_ptr<FolderLock> checkFiles(const SimulateOptions& options) {
   for (const std::string& file : {options.checkpoint, options.picture, options.csv})
     if (!file.empty()) requireWritableFile(file);
+  if (options.checkpoint.empty()) return nullptr;
+  return std::make_unique<FolderLock>(options.checkpoint + ".lock", options.checkpoint,
+                                      "choose another --checkpoint");
+}
+
+// Of all ranks: what the checkpoint holds. Only the first has its counts.
+Simulation simulationToCarryOn(const SimulationSettings& settings, const SimulateOptions& options) {
+  const Ranks& ranks = allRanks();
+  Simulation simulation{settings, 0, {}};
+  if (ranks.isFirst() && options.resume && std::filesystem::exists(options.checkpoint))
+    simulation = unpackSimulation(readFile(options.checkpoint), settings, options.checkpoint);
+  simulation.rays_done = std::stoull(ranks.fromFirst(std::to_string(simulation.rays_done)));
+  return simulation;
+}
+
+std::string castText(const Simulator& simulator, const SharedSimulation& shared, const Cast& cast,
+                     std::uint64_t rays) {
+  const Ranks& ranks = allRanks();
+  const SimulationSettings& settings = shared.collected().settings;
+  std::string slopes;
+  if (settings.model == SurfaceModel::kHeights && shared.castLast())
+    slopes = slopesText(simulator, settings);
+  std::string text;
+  for (const std::string& one : ranks.gather(slopes)) text += one;
+  // One process says what its kernels do; ranks, what they do together.
+  const bool launched_here = &ranks != &aloneRanks();
+  const double seconds =
+      launched_here ? cast.wall_s : (simulator.traceNs() + simulator.surfaceNs()) * 1e-9;
+  text += fmt::format("{:.2f} s, {:.2f} million rays per second", seconds,
+                      static_cast<double>(rays) / seconds * 1e-6);
+  if (launched_here)
+    text += fmt::format(" by {} ranks, which waited for each other {:.1f} % of that time",
+                        ranks.size(), 100 * cast.waiting);
+  return text + "\n";
+}
+
+void writeResults(const Simulation& simulation, const SimulateOptions& options) {
+  if (!options.picture.empty()) writePng(histogramPicture(simulation), options.picture);
+  if (!options.csv.empty()) writeFile(options.csv, energyCsv(simulation, options.albedo));
+}
+
+int runSimulate(const CommandLine& line, const SimulateOptions& options) {
+  const SimulationSettings settings = makeSettings(options);
   if (!options.picture.empty() && requireImageExtension(options.picture) != ".png")
     throw Error(fmt::format("--output '{}' must end in .png", options.picture));
-  std::optional<FolderLock> lock;
-  if (!options.checkpoint.empty())
-    lock.emplace(options.checkpoint + ".lock", options.checkpoint, "choose another --checkpoint");
-  Simulation simulation{settings, 0, {}};
-  if (options.resume && std::filesystem::exists(options.checkpoint))
-    simulation = unpackSimulation(readFile(options.checkpoint), settings, options.checkpoint);
+  const bool first = allRanks().isFirst();
+  const std::unique_ptr<FolderLock> lock = first ? checkFiles(options) : nullptr;
+  const Simulation begun = simulationToCarryOn(settings, options);
 
   Device device = openDevice(line.common);
   ProgramCache cache(device);
   Simulator simulator(device, cache, chosenLanes(line.common, device));
-  const std::uint64_t before = simulation.rays_done;
-  castRays(simulator, simulation, options, line.common.quiet);
+  SharedSimulation shared(allRanks(), simulator, begun);
+  const Cast cast = castRays(shared, options, line.common.quiet);
+  std::string how;
+  if (shared.cast() > begun.rays_done)
+    how = castText(simulator, shared, cast, shared.cast() - begun.rays_done);
+  if (!first) return kExitDone;
 
-  fmt::print("{}, {} rays\n\n{}", describeSettings(settings), simulation.rays_done,
-             energyTable(simulation, options.albedo));
-  if (simulation.rays_done > before) {
-    if (settings.model == SurfaceModel::kHeights) fmt::print("{}", slopesText(simulator, settings));
-    const double seconds = (simulator.traceNs() + simulator.surfaceNs()) * 1e-9;
-    fmt::print("{:.2f} s, {:.2f} million rays per second\n", seconds,
-               static_cast<double>(simulation.rays_done - before) / seconds * 1e-6);
-  }
+  const Simulation& simulation = shared.collected();
+  fmt::print("{}, {} rays\n\n{}{}", describeSettings(settings), simulation.rays_done,
+             energyTable(simulation, options.albedo), how);
   if (simulation.gaveUp() > 0)
     fmt::print("{} rays met the limit of {} steps and count as left over\n", simulation.gaveUp(),
                HF_MOST_STEPS);
-  if (!options.picture.empty()) writePng(histogramPicture(simulation), options.picture);
-  if (!options.csv.empty()) writeFile(options.csv, energyCsv(simulation, options.albedo));
+  writeResults(simulation, options);
   return simulation.balance() == 1 ? kExitDone : kExitCheckFailed;
 }
 
@@ -219,8 +277,10 @@ void addSimulateCommand(Command app, CommandLine& line) {
       "  glintmark simulate --alpha 0.8 --incidence 60 -o orders.png\n"
       "  glintmark simulate --surface metal --ior 0.2 --k 3.9 --alpha 0.5 0.1\n"
       "  glintmark simulate --rays 500e6 --checkpoint run.sim --resume");
-  command.callback(
-      [options, &line] { line.action = [options, &line] { return runSimulate(line, *options); }; });
+  command.callback([options, &line] {
+    line.shares_work = true;
+    line.action = [options, &line] { return runSimulate(line, *options); };
+  });
 }
 
 }  // namespace glintmark

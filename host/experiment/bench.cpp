@@ -11,6 +11,7 @@
 #include "host/experiment/all_tables.h"
 #include "host/experiment/interrupt.h"
 #include "host/experiment/survival.h"
+#include "host/parallel/ranks.h"
 #include "host/report/record/score.h"
 #include "host/report/record/trace_file.h"
 
@@ -78,7 +79,8 @@ namespace {
 int measureTables(const Session& session, const std::vector<BenchTable>& tables,
                   const BenchOptions& options) {
   const InterruptGuard guard;
-  if (!options.trace.empty()) {
+  const bool traces = !options.trace.empty() && allRanks().isFirst();
+  if (traces) {
     requireWritableFile(options.trace);
     startTrace();
   }
@@ -89,14 +91,15 @@ int measureTables(const Session& session, const std::vector<BenchTable>& tables,
       tables[i].measure(run);
     }
   } catch (const Interrupted&) {
-    if (!options.trace.empty()) writeTrace(options.trace, run.info());
+    if (traces) writeTrace(options.trace, run.info());
     throw;
   }
+  if (!allRanks().isFirst()) return kExitDone;
   requireMeasured(run.records().size());
   std::vector<std::string> texts;
   texts.reserve(tables.size());
   for (const BenchTable& table : tables) texts.push_back(table.text(run));
-  if (!options.trace.empty()) writeTrace(options.trace, run.info());
+  if (traces) writeTrace(options.trace, run.info());
   std::string scores;
   for (const BenchTable& table : tables) scores += scoreLine(table.spec, run.records());
   return run.finish(

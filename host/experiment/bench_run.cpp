@@ -2,17 +2,24 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
+#include <sstream>
+#include <thread>
 
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
 #include "host/core/progress.h"
+#include "host/core/stopwatch.h"
 #include "host/core/trace.h"
 #include "host/experiment/interrupt.h"
 #include "host/experiment/run_inputs.h"
 #include "host/experiment/survival.h"
 #include "host/ocl/device_clock.h"
+#include "host/parallel/ranks.h"
+#include "host/report/picture/image_io.h"
 #include "host/report/record/records.h"
 
 namespace glintmark {
@@ -46,6 +53,7 @@ std::string onLines(const std::string& reasons) {
   return text;
 }
 
+constexpr std::chrono::milliseconds kLook{2};  // for what other ranks send
 constexpr double kMostTime_s = 30 * 86400.0;
 
 // When so many seconds from now are over; 0: never.
@@ -97,6 +105,7 @@ std::filesystem::path checkedFolder(const BenchOptions& options) {
   if (!(options.max_time_s >= 0 && options.max_time_s <= kMostTime_s))
     throw Error(fmt::format("--max-time {} is not a number of seconds from 0 to {}",
                             options.max_time_s, kMostTime_s));
+  if (!allRanks().isFirst()) return options.folder;
   requireWritableFolder(options.folder);
   for (const std::string& file : {options.json, options.csv}) {
     if (!file.empty()) requireWritableFile(file);
@@ -105,9 +114,10 @@ std::filesystem::path checkedFolder(const BenchOptions& options) {
 }
 
 RunInfo describeRunWithPeaks(const Session& session, const BenchOptions& options, Device& device,
-                             ProgramCache& cache) {
+                             ProgramCache& cache, bool times) {
   RunInfo info = describeRun(session, device);
   info.inputs = hashInputs(session.common, options.scenes);
+  if (!times) return info;
   const DevicePeaks peaks = measurePeaks(device, cache, info.width);
   info.peak_gflops = peaks.gflops;
   info.peak_gbs = peaks.gbs;
@@ -116,7 +126,9 @@ RunInfo describeRunWithPeaks(const Session& session, const BenchOptions& options
   return info;
 }
 
-RecordLog openLog(const BenchOptions& options, const RunInfo& info) {
+// The log of the first rank; others have none.
+std::optional<RecordLog> openLog(const BenchOptions& options, const RunInfo& info) {
+  if (!allRanks().isFirst()) return std::nullopt;
   const std::filesystem::path file = std::filesystem::path(options.folder) / "records.jsonl";
   return options.resume ? RecordLog::resume(file, info) : RecordLog::create(file, info);
 }
@@ -130,69 +142,167 @@ BenchRun::BenchRun(const Session& session, const BenchOptions& options)
       size_(parseSize(options.size)),
       method_(parseMethod(options.method)),
       folder_(checkedFolder(options)),
-      lock_(folder_),
+      times_(timesOnItsDevice()),
+      lock_(allRanks().isFirst() ? std::make_unique<FolderLock>(folder_) : nullptr),
       cache_(device_),
-      info_(describeRunWithPeaks(session, options, device_, cache_)),
+      info_(describeRunWithPeaks(session, options, device_, cache_, times_)),
       key_(measurementKey(session.common, options, info_.width)),
       log_(openLog(options, info_)),
       until_(inSeconds(timeLeft(options))),
       table_until_(until_),
       case_until_(until_) {
-  removeAbandonedFiles(folder_);
+  if (allRanks().isFirst()) removeAbandonedFiles(folder_);
+  allRanks().any(false);  // peaks are measured before others use the processors
 }
 
 std::vector<Record> BenchRun::loggedCase(const std::string& table, const std::string& case_name,
                                          const std::vector<std::string>& metrics) const {
-  std::vector<Record> records = log_.recordsOf(table, case_name, key_);
+  std::vector<Record> records = log_->recordsOf(table, case_name, key_);
   const bool whole = std::ranges::all_of(metrics, [&](const std::string& metric) {
     return std::ranges::find(records, metric, &Record::metric) != records.end();
   });
   return whole ? records : std::vector<Record>();
 }
 
+// Of all ranks: which cases are missing, as the first knows, and who measures them.
+void BenchRun::deal(Cases& cases, const std::vector<std::string>& metrics) {
+  const Ranks& ranks = allRanks();
+  cases.records.resize(cases.names.size());
+  std::vector<std::string> missing;
+  for (std::size_t i = 0; ranks.isFirst() && i < cases.names.size(); ++i) {
+    if (isLost(fullName(cases.table, cases.names[i]))) continue;
+    cases.records[i] = loggedCase(cases.table, cases.names[i], metrics);
+    if (cases.records[i].empty())
+      missing.push_back(std::to_string(i));
+    else
+      ++cases.kept;
+  }
+  std::istringstream words(ranks.fromFirst(fmt::format("{}", fmt::join(missing, " "))));
+  std::vector<std::string> names;
+  for (std::size_t i = 0; words >> i;) {
+    cases.missing.push_back(i);
+    names.push_back(cases.names[i]);
+  }
+  const std::vector<std::string> timing = ranks.gather(times_ ? "times" : "");
+  std::vector<int> measurers;
+  for (std::size_t i = 0; i < timing.size(); ++i)
+    if (!timing[i].empty()) measurers.push_back(static_cast<int>(i));
+  cases.measurers = dealCases(names, measurers);
+}
+
+void BenchRun::take(Cases& cases, CaseMessage message) {
+  if (!message.file.empty()) {
+    writeFile(folder_ / message.file, message.content);
+    return;
+  }
+  ++cases.arrived;
+  if (message.records.empty()) {
+    ++left_out_;
+    return;
+  }
+  log_->append(message.records);
+  cases.records[message.index] = std::move(message.records);
+  ++cases.kept;
+}
+
+void BenchRun::takeArrived(Cases& cases) {
+  for (const RankMessage& message : allRanks().arrived()) take(cases, unpackMessage(message.bytes));
+}
+
+// At the rank that measures it; `to_come`: so many cases share the time that is left to the table.
+void BenchRun::measureOne(Cases& cases, std::size_t index, std::size_t to_come) {
+  const std::string& name = cases.names[index];
+  CaseMessage message{.index = index};
+  if (Repetitions::Clock::now() < until_) {
+    case_until_ = shareOf(table_until_, to_come);
+    stopIfInterrupted();
+    const CaseAtHand at_hand(fullName(cases.table, name));
+    const TraceScope scope("case", isTracing() ? cases.table + "/" + name : std::string());
+    const Timer timer = device_.clock().timer();
+    message.records = cases.measure(name);
+    // A case that two clocks have timed is measured again by the one that is left.
+    if (device_.clock().timer() != timer) message.records = cases.measure(name);
+  } else if (records_.empty() && cases.kept == 0 && allRanks().isFirst()) {
+    throw Error(fmt::format("--max-time {} s is too short for one repetition of {} {}",
+                            options_.max_time_s, cases.table, name));
+  }
+  if (allRanks().isFirst())
+    take(cases, std::move(message));
+  else
+    allRanks().post(packMessage(message));
+}
+
+// The cases that are dealt to this rank; at the first also what others send, until all are there.
+void BenchRun::measureMine(Cases& cases) {
+  const Ranks& ranks = allRanks();
+  Progress progress(session_.common.quiet);
+  const auto mine = [&](std::size_t i) { return cases.measurers[i] == ranks.rank(); };
+  std::size_t to_come = 0;
+  for (std::size_t i = 0; i < cases.missing.size(); ++i) to_come += mine(i);
+  for (std::size_t i = 0; i < cases.missing.size(); ++i) {
+    if (!mine(i)) continue;
+    const std::size_t index = cases.missing[i];
+    progress.show(static_cast<int>(index), static_cast<int>(cases.names.size()),
+                  cases.table + " " + cases.names[index]);
+    measureOne(cases, index, to_come--);
+    if (ranks.isFirst()) takeArrived(cases);
+  }
+  while (ranks.isFirst() && cases.arrived < cases.missing.size()) {
+    stopIfInterrupted();
+    std::this_thread::sleep_for(kLook);
+    takeArrived(cases);
+  }
+}
+
+// Of all ranks; the first says how well they shared it.
+void BenchRun::prepareShared(const std::function<void()>& prepare) const {
+  const Ranks& ranks = allRanks();
+  const double waited_ns = ranks.waitedNs();
+  const Stopwatch watch;
+  prepare();
+  std::uint64_t waited_sum_ns = static_cast<std::uint64_t>(ranks.waitedNs() - waited_ns);
+  ranks.sum({&waited_sum_ns, 1});
+  const double wall_ns = watch.elapsedNs();
+  if (session_.common.quiet) return;
+  fmt::print(stderr, "note: what cases share took {} ranks {:.2f} s, {:.1f} % of it waiting\n",
+             ranks.size(), wall_ns * 1e-9,
+             100 * static_cast<double>(waited_sum_ns) / (wall_ns * ranks.size()));
+}
+
 void BenchRun::measureCases(const std::string& table, const std::vector<std::string>& cases,
                             const std::vector<std::string>& metrics,
-                            const std::function<std::vector<Record>(const std::string&)>& measure) {
-  Progress progress(session_.common.quiet);
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    const std::string name = fullName(table, cases[i]);
-    if (isLost(name)) continue;
-    progress.show(static_cast<int>(i), static_cast<int>(cases.size()), name);
-    std::vector<Record> measured = loggedCase(table, cases[i], metrics);
-    if (measured.empty() && Repetitions::Clock::now() >= until_) {
-      if (records_.empty())
-        throw Error(fmt::format("--max-time {} s is too short for one repetition of {} {}",
-                                options_.max_time_s, table, cases[i]));
-      ++left_out_;
-      continue;
-    }
-    if (measured.empty()) {
-      case_until_ = shareOf(table_until_, cases.size() - i);
-      const auto kept = [&] {
-        return Interrupted(fmt::format(
-            "interrupted; {} of {} cases of table {} are kept in {}, --resume carries on", i,
-            cases.size(), table, (folder_ / "records.jsonl").string()));
-      };
-      try {
-        stopIfInterrupted();
-        const CaseAtHand at_hand(name);
-        const TraceScope scope("case", isTracing() ? table + "/" + cases[i] : std::string());
-        const Timer timer = device_.clock().timer();
-        measured = measure(cases[i]);
-        // A case that two clocks have timed is measured again by the one that is left.
-        if (device_.clock().timer() != timer) measured = measure(cases[i]);
-      } catch (const Interrupted&) {
-        throw kept();
-      } catch (const Error&) {
-        // A compiler inside the OpenCL runtime may drop its files at Ctrl-C: no fault of the
-        // kernel.
-        if (InterruptGuard::interrupted()) throw kept();
-        throw;
-      }
-      log_.append(measured);
-    }
-    records_.insert(records_.end(), measured.begin(), measured.end());
+                            const std::function<std::vector<Record>(const std::string&)>& measure,
+                            const std::function<void()>& prepare) {
+  Cases all{table, cases, measure};
+  const auto kept = [&] {
+    if (allRanks().isFirst()) takeArrived(all);
+    return Interrupted(
+        fmt::format("interrupted; {} of {} cases of table {} are kept in {}, --resume carries on",
+                    all.kept, cases.size(), table, (folder_ / "records.jsonl").string()));
+  };
+  try {
+    deal(all, metrics);
+    if (prepare && !all.missing.empty() && &allRanks() != &aloneRanks()) prepareShared(prepare);
+    measureMine(all);
+  } catch (const Interrupted&) {
+    throw kept();
+  } catch (const Error&) {
+    // A compiler inside the OpenCL runtime may drop its files at Ctrl-C: no fault of the kernel.
+    if (InterruptGuard::interrupted()) throw kept();
+    throw;
   }
+  for (const std::vector<Record>& records : all.records)
+    records_.insert(records_.end(), records.begin(), records.end());
+}
+
+void BenchRun::keepPicture(const Image& picture, const std::string& file) {
+  if (allRanks().isFirst()) return writePng(picture, folder_ / file);
+  const std::filesystem::path copy =
+      std::filesystem::temp_directory_path() / fmt::format("glintmark_{}_{}", getpid(), file);
+  writePng(picture, copy);
+  CaseMessage message{.file = file, .content = readFile(copy)};
+  std::filesystem::remove(copy);
+  allRanks().post(packMessage(message));
 }
 
 Repetitions BenchRun::reps() const {

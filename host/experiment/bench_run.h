@@ -4,10 +4,14 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "host/core/image.h"
+#include "host/experiment/case_message.h"
 #include "host/experiment/repetitions.h"
 #include "host/experiment/session.h"
 #include "host/frame/shading_options.h"
@@ -36,11 +40,14 @@ struct BenchOptions {
   std::map<std::string, std::string> more_key{};  // further entries of BenchRun::key()
 };
 
-/// What a table measures and prints. Cases are measured in order, each once.
+/// What a table measures and prints. Cases are measured in order, each once. Where several ranks
+/// run it, files, records and the log are the first's; each that has a device of its own measures
+/// some of the cases.
 class BenchRun {
  public:
-  /// Checks the options, the folder and the files, opens the device, locks the folder, measures the
-  /// device's peaks and opens the log. Throws Error for whatever is wrong with them.
+  /// Of all ranks. Checks the options, the folder and the files, opens the device, locks the
+  /// folder, measures the device's peaks and opens the log. Throws Error for whatever is wrong with
+  /// them.
   BenchRun(const Session& session, const BenchOptions& options);
 
   const Session& session() const { return session_; }
@@ -71,11 +78,18 @@ class BenchRun {
   /// Measures the cases that the log does not hold whole (a record of each of `metrics`, measured
   /// with the same key), shows progress, and logs each as soon as it is there. Records of both
   /// kinds are kept in the order of `cases`. After Ctrl-C throws Interrupted, which says what is
-  /// kept. Cases for which no time is left are left out; throws Error if that is the first.
-  void measureCases(
-      const std::string& table, const std::vector<std::string>& cases,
-      const std::vector<std::string>& metrics,
-      const std::function<std::vector<Record>(const std::string& case_name)>& measure);
+  /// kept. Cases for which no time is left are left out; throws Error if nothing is measured then.
+  /// Of all ranks, each of which calls `measure` for the cases that are dealt to it alone; before,
+  /// if a launcher started them and any case is missing, each calls `prepare`, which may share its
+  /// work.
+  void measureCases(const std::string& table, const std::vector<std::string>& cases,
+                    const std::vector<std::string>& metrics,
+                    const std::function<std::vector<Record>(const std::string& case_name)>& measure,
+                    const std::function<void()>& prepare = {});
+
+  /// Writes a picture of the case that is being measured to `file` in the folder, at the first
+  /// rank.
+  void keepPicture(const Image& picture, const std::string& file);
 
   /// Adds records that follow from measured ones, each behind the last record of its case. They are
   /// not logged: a resumed run makes them anew.
@@ -97,8 +111,24 @@ class BenchRun {
   int finish(const std::string& tables);
 
  private:
+  // One call of measureCases().
+  struct Cases {
+    const std::string& table;
+    const std::vector<std::string>& names;
+    const std::function<std::vector<Record>(const std::string&)>& measure;
+    std::vector<std::size_t> missing{};          // of the names, which the log does not hold
+    std::vector<int> measurers{};                // of the missing ones: a rank each
+    std::vector<std::vector<Record>> records{};  // by name; at the first rank
+    std::size_t kept = 0, arrived = 0;           // names with records; of the missing ones
+  };
   std::vector<Record> loggedCase(const std::string& table, const std::string& case_name,
                                  const std::vector<std::string>& metrics) const;
+  void prepareShared(const std::function<void()>& prepare) const;
+  void deal(Cases& cases, const std::vector<std::string>& metrics);
+  void measureMine(Cases& cases);
+  void measureOne(Cases& cases, std::size_t index, std::size_t to_come);
+  void take(Cases& cases, CaseMessage message);
+  void takeArrived(Cases& cases);
 
   void noteEnd();
 
@@ -108,12 +138,13 @@ class BenchRun {
   Device device_;
   ImageSize size_;
   GlintMethod method_;
-  std::filesystem::path folder_;  // made only once there is a device
-  FolderLock lock_;
+  std::filesystem::path folder_;      // made only once there is a device
+  bool times_;                        // does this rank measure cases?
+  std::unique_ptr<FolderLock> lock_;  // at the first rank
   ProgramCache cache_;
   RunInfo info_;
   std::map<std::string, std::string> key_;
-  RecordLog log_;
+  std::optional<RecordLog> log_;  // at the first rank
   std::vector<Record> records_;
   Repetitions::Clock::time_point until_, table_until_, case_until_;  // when time is over
   std::size_t left_out_ = 0;                                         // cases, for want of time

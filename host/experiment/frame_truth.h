@@ -14,11 +14,6 @@ namespace glintmark {
 /// The run's size at a width of at most `most_width_px`: errors need fewer pixels than times.
 ImageSize truthSize(const BenchRun& run, int most_width_px);
 
-/// A ground truth and the replicates that it is the mean of.
-struct ReplicatedTruth {
-  TruthImages images;
-  std::vector<Image> replicates;
-};
 /// The ground truth of a view with `spp` samples a pixel. Throws Interrupted after Ctrl-C.
 ReplicatedTruth truthOf(BenchRun& run, const Scene& scene, const View& view,
                         const ShadingOptions& options, int spp,

@@ -1,35 +1,73 @@
 #include "host/experiment/interrupt.h"
 
+#include <algorithm>
+#include <chrono>
 #include <csignal>
+#include <cstdlib>
+#include <optional>
+#include <utility>
+
+#include "host/parallel/ranks.h"
 
 namespace glintmark {
 namespace {
 
 constexpr int kSignalExit = 128;
 
-volatile std::sig_atomic_t signal_seen = 0;
+// mpirun kills what has not ended so many seconds after it was asked to; 1 unless it is told
+// otherwise, which it passes on.
+std::chrono::milliseconds patience() {
+  const char* text = std::getenv("OMPI_MCA_odls_base_sigkill_timeout");
+  const int seconds = text == nullptr ? 1 : std::max(1, std::atoi(text));
+  return std::chrono::milliseconds(600) * seconds;
+}
+
+volatile std::sig_atomic_t signal_seen = 0, one_of_many = 0, continue_seen = 0;
 
 void noteSignal(int signal) {
   signal_seen = signal;
+  if (one_of_many != 0) return;
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
+}
+
+void noteContinue(int) {
+  continue_seen = 1;
+}
+
+// For a rank that waits for others, one of which may have died.
+void stopWaiting() {
+  static std::optional<std::chrono::steady_clock::time_point> since;
+  if (signal_seen == 0) return since.reset();
+  const auto now = std::chrono::steady_clock::now();
+  if (!since) since = now;
+  if (now - *since > patience()) throw RankSilent("interrupted, and a rank did not answer");
 }
 
 }  // namespace
 
 InterruptGuard::InterruptGuard() {
   signal_seen = 0;
+  one_of_many = allRanks().size() > 1;
+  whileWaiting(stopWaiting);
   previous_interrupt_ = std::signal(SIGINT, noteSignal);
   previous_terminate_ = std::signal(SIGTERM, noteSignal);
+  if (one_of_many != 0) previous_continue_ = std::signal(SIGCONT, noteContinue);
 }
 
 InterruptGuard::~InterruptGuard() {
+  whileWaiting(nullptr);
   std::signal(SIGINT, previous_interrupt_);
   std::signal(SIGTERM, previous_terminate_);
+  if (one_of_many != 0) std::signal(SIGCONT, previous_continue_);
 }
 
 bool InterruptGuard::interrupted() {
   return signal_seen != 0;
+}
+
+bool InterruptGuard::endIsNear() {
+  return std::exchange(continue_seen, 0) != 0;
 }
 
 int InterruptGuard::exitCode() {

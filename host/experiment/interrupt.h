@@ -10,8 +10,15 @@ class Interrupted : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The same while this rank waited for another that did not answer; it may have died.
+class RankSilent : public Interrupted {
+ public:
+  using Interrupted::Interrupted;
+};
+
 /// While it lives, the first SIGINT or SIGTERM only sets a flag; a second one ends the program at
-/// once.
+/// once, unless it is one of several ranks: their launcher kills those that take too long. A rank
+/// that waits for others after a signal, which may never come, throws RankSilent after a while.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -20,6 +27,9 @@ class InterruptGuard {
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 
   static bool interrupted();
+  /// Has this rank had a SIGCONT since it was last asked? mpirun sends one a second before SIGTERM,
+  /// and that a second before it kills: what takes long to save should be saved now.
+  static bool endIsNear();
   /// Exit code of a program that the signal of the last guard ended: 128 + its number; as for
   /// SIGINT if there was none.
   static int exitCode();
@@ -27,6 +37,7 @@ class InterruptGuard {
  private:
   void (*previous_interrupt_)(int);
   void (*previous_terminate_)(int);
+  void (*previous_continue_)(int) = nullptr;
 };
 
 }  // namespace glintmark

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "host/core/error.h"
+#include "host/experiment/rank_device.h"
 #include "host/ocl/device_clock.h"
 #include "host/ocl/driver_cache.h"
 #include "host/report/picture/image_io.h"
@@ -75,7 +76,8 @@ void prepareDrivers(const CommonOptions& common) {
 
 Device openDevice(const CommonOptions& common) {
   prepareDrivers(common);
-  Device device(common.device, parseTimer(common.timer));
+  Device device(rankDevice(common), parseTimer(common.timer));
+  requireOneKind(device.info());
   if (!common.quiet)
     device.clock().onDistrust(
         [](const std::string& why) { fmt::print(stderr, "note: {}\n", why); });

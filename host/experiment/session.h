@@ -22,6 +22,7 @@ struct CommonOptions {
   std::vector<std::string> overrides;
   std::string mesh_file, asset_folder;
   bool quiet = false;
+  bool own_device = false;  // a rank must not share its device with others
 };
 
 /// What one call of the program was asked for, whatever its subcommand.
@@ -44,8 +45,13 @@ void prepareDrivers(const CommonOptions& common);
 
 /// Opens the chosen device. Unless quiet, it says on stderr if its clock turns out to be of no use.
 /// Throws Error for a width that kernels do not come in or an unknown timer, DeviceError if there
-/// is no such device.
+/// is no such device. Of all ranks: each opens another of the devices that are like the chosen one
+/// on its machine; where they are processors and too few, ranks share them, unless each is to have
+/// its `own_device`. Throws Error if there are not enough, or of several kinds.
 Device openDevice(const CommonOptions& common);
+
+/// Is this the only rank that opened its device, or the first of those that share it?
+bool timesOnItsDevice();
 
 /// Lanes that kernels will have on `device`.
 int chosenLanes(const CommonOptions& common, const Device& device);

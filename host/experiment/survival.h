@@ -17,9 +17,10 @@ struct LostCase {
 /// CaseAtHand, until one ends by itself; `measure` is told whether it is the first. Drivers die
 /// while they compile, launch and read: a child that only compiles would see the first of these, at
 /// twice the price. Returns `measure`'s result in the child, where its exceptions pass through, and
-/// the child's exit code in this process, which is not to have used OpenCL. Requests to end are
-/// handed on; a child that these or a lack of memory (SIGKILL) ended is not replaced. Unless quiet,
-/// a note on stderr says what was lost.
+/// the child's exit code in this process, which is not to have used OpenCL. Ranks of a launcher
+/// have no children: there `measure` runs in this process. Requests to end are handed on; a child
+/// that these or a lack of memory (SIGKILL) ended is not replaced. Unless quiet, a note on stderr
+/// says what was lost.
 int runSurviving(bool quiet, const std::function<int(bool first)>& measure);
 
 /// Cases that processes before this one died in.

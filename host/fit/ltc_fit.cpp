@@ -83,20 +83,36 @@ class TableFit {
   }
 
   LtcTable run() {
-    tbb::parallel_for(
-        0, size_, [this](int y) { fitRow(y); }, tbb::simple_partitioner());
+    overRows([this](int y) { fitRow(y); });
+    shareLobes();
     for (int pass = 0; pass < kRefinements; ++pass) {
       const std::vector<LtcLobe> before = lobes_;
-      tbb::parallel_for(
-          0, size_, [&](int y) { refineRow(before, y); }, tbb::simple_partitioner());
+      overRows([&](int y) { refineRow(before, y); });
+      shareLobes();
     }
     LtcTable table(options_.ndf, size_);
-    tbb::parallel_for(
-        0, size_, [&](int y) { storeRow(table, y); }, tbb::simple_partitioner());
+    overRows([&](int y) { storeRow(table, y); });
+    shareRows(*options_.ranks, std::span(table.values),
+              static_cast<std::size_t>(size_) * LTC_CELL_FLOATS);
     return table;
   }
 
  private:
+  // Those of this rank.
+  template <typename Row>
+  void overRows(const Row& row) {
+    tbb::parallel_for(
+        0, size_,
+        [&](int y) {
+          if (options_.ranks->makes(static_cast<std::size_t>(y))) row(y);
+        },
+        tbb::simple_partitioner());
+  }
+
+  void shareLobes() {
+    shareRows(*options_.ranks, std::span(lobes_), static_cast<std::size_t>(size_));
+  }
+
   LtcLobe& lobe(int x, int y) { return lobes_[static_cast<std::size_t>(y) * size_ + x]; }
 
   // From rough to smooth. Narrow lobes can be tilted or sheared to nearly the same effect; what
@@ -165,7 +181,9 @@ class TableFit {
   void rowDone() {
     const std::scoped_lock lock(progress_mutex_);
     ++rows_done_;
-    if (options_.progress) options_.progress(rows_done_ / ((2.0 + kRefinements) * size_));
+    if (options_.progress)
+      options_.progress(
+          std::min(1.0, rows_done_ * options_.ranks->size() / ((2.0 + kRefinements) * size_)));
   }
 
   const LtcFitOptions& options_;

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "host/fit/ltc_lobe.h"
+#include "host/parallel/ranks.h"
 
 namespace glintmark {
 
@@ -14,6 +15,8 @@ struct LtcFitOptions {
   /// Called with the share done, in [0, 1], from one worker at a time; may be empty. Throwing from
   /// it ends the fit.
   std::function<void(double)> progress{};
+  /// Rows of each pass are dealt out to these; each of them calls the fit, and gets the table.
+  const Ranks* ranks = &aloneRanks();
 };
 
 /// The lobe that lies closest to the BRDF in the sense of ltcFitError: the better one of the minima
@@ -26,8 +29,8 @@ LtcLobe fitLtcLobe(reference::Ndf ndf, double alpha, double cos_theta,
 /// 0, the limit of alpha -> 0, is measured at a very small one.
 double ltcFitAlpha(int x, int size);
 
-/// Fits a whole table. Bits do not depend on the number of threads. Throws Error for a size outside
-/// LTC_SIZE_MIN to LTC_SIZE_MAX.
+/// Fits a whole table. Bits do not depend on the number of threads and ranks. Throws Error for a
+/// size outside LTC_SIZE_MIN to LTC_SIZE_MAX.
 LtcTable fitLtcTable(const LtcFitOptions& options);
 
 }  // namespace glintmark

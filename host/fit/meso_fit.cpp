@@ -105,7 +105,7 @@ double overallAlpha(const MesoConstants& constants, double alpha_mi, double alph
   return std::min(join(constants.join, alpha_mi, alpha_me, unused), 1.0);
 }
 
-MesoGrid computeMesoGrid(int count) {
+MesoGrid computeMesoGrid(int count, const Ranks& ranks) {
   if (count < 1 || count > 33) {
     throw Error(fmt::format("a grid of {} roughnesses is not possible; it has 1 to 33", count));
   }
@@ -113,13 +113,16 @@ MesoGrid computeMesoGrid(int count) {
   for (int i = 1; i <= count; ++i) alphas.push_back(1.0 * i / count);
   const MesoConvolution convolution(alphas);
   MesoGrid grid{count, std::vector<double>(static_cast<std::size_t>(count) * count)};
+  const auto at = [&](int i, int j) -> double& {
+    return grid.alpha[static_cast<std::size_t>(i) * count + j];
+  };
   tbb::parallel_for(0, count, [&](int i) {
-    for (int j = 0; j <= i; ++j) {
-      const double alpha = std::min(convolution.closest(i, j).alpha, 1.0);
-      grid.alpha[static_cast<std::size_t>(i) * count + j] = alpha;
-      grid.alpha[static_cast<std::size_t>(j) * count + i] = alpha;
-    }
+    if (!ranks.makes(static_cast<std::size_t>(i))) return;
+    for (int j = 0; j <= i; ++j) at(i, j) = std::min(convolution.closest(i, j).alpha, 1.0);
   });
+  shareRows(ranks, std::span(grid.alpha), static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i)
+    for (int j = 0; j < i; ++j) at(j, i) = at(i, j);
   return grid;
 }
 

@@ -4,6 +4,8 @@
 #include <functional>
 #include <vector>
 
+#include "host/parallel/ranks.h"
+
 namespace glintmark {
 
 /// Constants of method `exact`, in the order of kernels/area/meso_table.h.
@@ -30,8 +32,9 @@ struct MesoGrid {
   double at(int i, int j) const { return alpha[static_cast<std::size_t>(i - 1) * count + j - 1]; }
 };
 
-/// Convolves numerically; parallel. Throws Error for a count outside 1 to 33.
-MesoGrid computeMesoGrid(int count);
+/// Convolves numerically; parallel, and rows are dealt out to `ranks`, each of which calls it.
+/// Throws Error for a count outside 1 to 33.
+MesoGrid computeMesoGrid(int count, const Ranks& ranks = aloneRanks());
 
 /// Fits the constants: Chebyshev interpolation of the inverse, least squares over `grid`.
 MesoConstants fitMeso(const MesoGrid& grid);

@@ -7,6 +7,7 @@
 
 #include "host/core/image.h"
 #include "host/frame/frame_pass.h"
+#include "host/parallel/ranks.h"
 
 namespace glintmark {
 
@@ -41,9 +42,50 @@ class TruthRenderer {
   FramePass pass_;
 };
 
+/// Samples that one launch adds.
+struct TruthUnit {
+  int replicate = 0;
+  int begin = 0, count = 0;  // samples of the replicate
+  int of_replicate = 0;      // samples that it has in all
+
+  bool isLast() const { return begin + count == of_replicate; }
+};
+/// `spp` samples of so many pixels, replicate by replicate, in launches of some tenths of a second
+/// on two cores. Throws Error for a number of samples that is not from 1 to 2^20.
+std::vector<TruthUnit> truthUnits(int spp, double pixels);
+
 struct TruthImages {
   Image mean;            // RGBA as readRadiance gives it
   Image standard_error;  // of the mean, RGB, from the spread of replicates; 0 for one sample
+};
+
+/// A truth and its replicates' means.
+struct ReplicatedTruth {
+  TruthImages images;
+  std::vector<Image> replicates;
+};
+
+/// A truth that ranks share: its batches of samples are dealt out, each is summed from 0, and sums
+/// are added in their order, so that every rank gets the bits that renderTruth() gives.
+class SharedTruth {
+ public:
+  /// Of `spp` samples a pixel, like renderTruth().
+  SharedTruth(const Ranks& ranks, int spp) : ranks_(ranks), spp_(spp) {}
+
+  /// Of all ranks: renders those batches that `deal` gives to this one. `progress` may throw.
+  /// Truths that are made with one deal before any is joined keep more ranks busy than one has
+  /// batches.
+  void make(TruthRenderer& renderer, RankDeal& deal, const std::function<void()>& progress);
+  /// Of all ranks, after make(): the truth. Nothing can be joined after it.
+  ReplicatedTruth join();
+
+ private:
+  const Ranks& ranks_;
+  int spp_;
+  std::vector<TruthUnit> units_;
+  std::vector<int> makers_;  // of the units
+  std::vector<Image> mine_;
+  Image frame_;  // of the truth's size
 };
 
 /// Renders `view` with `spp` samples a pixel (1 to 2^20), shared out among kTruthReplicates

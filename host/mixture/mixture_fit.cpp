@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <span>
 
 #include "host/core/error.h"
 #include "host/core/free_memory.h"
@@ -19,6 +20,7 @@
 #include "host/mixture/mixture_order.h"
 #include "host/mixture/mixture_start.h"
 #include "host/mixture/normal_mixture.h"
+#include "host/mixture/shared_mixture_fit.h"
 
 namespace glintmark {
 namespace {
@@ -29,6 +31,10 @@ constexpr std::size_t kTaskNormals = 16384;
 constexpr int kGrain = 8;
 // Normals between two calls of the progress, about half a second of one processor.
 constexpr double kNormalsPerCall = 1 << 22;
+// What is shared among ranks takes each of them milliseconds, since telling the others takes half
+// of one: so many blocks of a batch, so many normals of a texel.
+constexpr int kLeastSharedBlocks = 256;
+constexpr double kLeastSharedNormals = 1 << 22;
 
 // Sums over the texels of a level.
 struct Tally {
@@ -60,9 +66,9 @@ struct BlockTexels {
 
 class MixtureFit {
  public:
-  MixtureFit(const NormalMap& map, const MixtureOptions& options,
+  MixtureFit(const Ranks& ranks, const NormalMap& map, const MixtureOptions& options,
              const std::function<void(double)>& progress)
-      : options_(options), progress_(progress), normals_(map, options.surface) {
+      : ranks_(ranks), options_(options), progress_(progress), normals_(map, options.surface) {
     result_.moments = makeMipTexels(map.width_px, map.height_px, options.lobes);
     result_.lobes = options.lobes;
     level_count_ = static_cast<int>(result_.moments.layout.level_count);
@@ -99,7 +105,7 @@ class MixtureFit {
       tally.converged = 0;
       const Round round{level, pass == 0 && sweep == 0, pass == 0};
       for (const TexelBatch& batch : batches) {
-        tally += overBlocks(geometry, batch, [&](const BlockTexels& texels) {
+        tally += overBlocks(geometry, level, batch, [&](const BlockTexels& texels) {
           return fitBlock(geometry, round, texels);
         });
       }
@@ -115,7 +121,7 @@ class MixtureFit {
     const MixtureLevel geometry = normals_.level(level);
     const TexelBatch all =
         texelBatches(MixtureOrder::kIndependent, geometry.width(), geometry.height()).front();
-    const Tally tally = overBlocks(geometry, all, [&](const BlockTexels& texels) {
+    const Tally tally = overBlocks(geometry, level, all, [&](const BlockTexels& texels) {
       return finishBlock(geometry, level, texels);
     });
     result_.levels[level].log_likelihood =
@@ -131,11 +137,29 @@ class MixtureFit {
   }
 
   // Calls `run` for every block of the batch, a texel a block where rows are long; adds up tallies
-  // in an order that does not depend on the threads.
+  // in an order that does not depend on the threads or the ranks.
   template <class Run>
-  Tally overBlocks(const MixtureLevel& geometry, const TexelBatch& batch, const Run& run) {
+  Tally overBlocks(const MixtureLevel& geometry, int level, const TexelBatch& batch,
+                   const Run& run) {
     const int size = geometry.hasLongRows() ? 1 : kBlockTexels;
     const int blocks = (batch.count + size - 1) / size;
+    const auto texels = [&](int b) {
+      return BlockTexels{batch, b * size, std::min(size, batch.count - b * size)};
+    };
+    std::vector<Tally> made;  // where ranks have a part in it
+    if (sharesTexels(geometry)) {
+      // One after the other: every rank takes part in each.
+      for (int b = 0; b < blocks; ++b) made.push_back(run(texels(b)));
+    } else if (ranks_.size() > 1 && !geometry.hasLongRows() &&
+               blocks >= kLeastSharedBlocks * ranks_.size()) {
+      made.resize(static_cast<std::size_t>(blocks));
+      tbb::parallel_for(0, blocks, [&](int b) {
+        if (ranks_.makes(static_cast<std::size_t>(b)))
+          made[static_cast<std::size_t>(b)] = run(texels(b));
+      });
+      shareRows(ranks_, std::span(made), 1);
+      shareStates(level, batch, size, blocks);
+    }
     const int per_call = std::max(
         1, static_cast<int>(kNormalsPerCall / std::max(1.0, size * geometry.normalsPerTexel())));
     Tally sum;
@@ -144,9 +168,8 @@ class MixtureFit {
       sum += tbb::parallel_deterministic_reduce(
           tbb::blocked_range<int>(first, last, geometry.hasLongRows() ? 1 : kGrain), Tally{},
           [&](const tbb::blocked_range<int>& range, Tally tally) {
-            for (int b = range.begin(); b < range.end(); ++b) {
-              tally += run(BlockTexels{batch, b * size, std::min(size, batch.count - b * size)});
-            }
+            for (int b = range.begin(); b < range.end(); ++b)
+              tally += made.empty() ? run(texels(b)) : made[static_cast<std::size_t>(b)];
             return tally;
           },
           [](Tally a, const Tally& b) { return a += b; });
@@ -156,6 +179,24 @@ class MixtureFit {
     return sum;
   }
 
+  // Do ranks share the normals below each texel?
+  bool sharesTexels(const MixtureLevel& geometry) const {
+    return ranks_.size() > 1 && geometry.hasLongRows() &&
+           geometry.normalsPerTexel() >= kLeastSharedNormals;
+  }
+
+  // Of all ranks: mixtures of the batch's texels, each block from the rank that has fitted it.
+  void shareStates(int level, const TexelBatch& batch, int size, int blocks) {
+    const auto lobes = static_cast<std::size_t>(options_.lobes);
+    const std::size_t row = static_cast<std::size_t>(size) * lobes;
+    std::vector<float4> states(static_cast<std::size_t>(blocks) * row);
+    for (int i = 0; i < batch.count; ++i)
+      std::copy_n(state(level, batch.at(i)), lobes, &states[static_cast<std::size_t>(i) * lobes]);
+    shareRows(ranks_, std::span(states), row);
+    for (int i = 0; i < batch.count; ++i)
+      std::copy_n(&states[static_cast<std::size_t>(i) * lobes], lobes, state(level, batch.at(i)));
+  }
+
   // E-step of the block's texels.
   void expect(const MixtureLevel& geometry, const BlockTexels& texels, const Scratch& scratch,
               bool likelihood, MixtureBlock& block) {
@@ -163,19 +204,25 @@ class MixtureFit {
       expectBlock(block, options_.lobes, scratch.view(geometry.mostNormals()), likelihood);
       return;
     }
-    expectLongRows(geometry.rows(texels.at(0)), likelihood, block);
+    expectLongRows(geometry.rows(texels.at(0)), sharesTexels(geometry) ? ranks_ : aloneRanks(),
+                   likelihood, block);
   }
 
-  void expectLongRows(const std::vector<NormalRow>& rows, bool likelihood, MixtureBlock& block) {
+  // Of all `ranks`.
+  void expectLongRows(const std::vector<NormalRow>& rows, const Ranks& ranks, bool likelihood,
+                      MixtureBlock& block) {
     const std::size_t rows_per_task = std::max<std::size_t>(1, kTaskNormals / rows[0].count);
     const std::size_t tasks = (rows.size() + rows_per_task - 1) / rows_per_task;
     using Totals = double[kMaxLobes + 1][4];
     const auto totals = std::make_unique<Totals[]>(tasks);
     tbb::parallel_for(std::size_t{0}, tasks, [&](std::size_t task) {
+      if (!ranks.makes(task)) return;
       const std::size_t first = task * rows_per_task;
       expectRows(block, options_.lobes, rows.data() + first,
                  std::min(rows_per_task, rows.size() - first), likelihood, totals[task]);
     });
+    constexpr std::size_t kNumbers = sizeof(Totals) / sizeof(double);
+    shareRows(ranks, std::span(&totals[0][0][0], tasks * kNumbers), kNumbers);
     for (std::size_t task = 1; task < tasks; ++task) {
       for (int i = 0; i <= options_.lobes; ++i) {
         for (int k = 0; k < 4; ++k) totals[0][i][k] += totals[task][i][k];
@@ -337,6 +384,7 @@ class MixtureFit {
     }
   }
 
+  const Ranks& ranks_;
   const MixtureOptions options_;
   const std::function<void(double)>& progress_;
   const FittedNormals normals_;
@@ -366,6 +414,12 @@ void checkMixtureOptions(const MixtureOptions& options) {
 
 NormalMixtures fitNormalMixtures(const NormalMap& map, const MixtureOptions& options,
                                  const std::function<void(double)>& progress) {
+  return fitMixturesShared(aloneRanks(), map, options, progress);
+}
+
+NormalMixtures fitMixturesShared(const Ranks& ranks, const NormalMap& map,
+                                 const MixtureOptions& options,
+                                 const std::function<void(double)>& progress) {
   checkMixtureOptions(options);
   checkNormalMap(map);
   // The chain of mixtures, projected normals, and what lies between those.
@@ -378,7 +432,7 @@ NormalMixtures fitNormalMixtures(const NormalMap& map, const MixtureOptions& opt
                 fmt::format("a fit of {} lobes to each of the {}x{} texels of map '{}'",
                             options.lobes, map.width_px, map.height_px, map.name));
   tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic : options.threads);
-  return arena.execute([&] { return MixtureFit(map, options, progress).run(); });
+  return arena.execute([&] { return MixtureFit(ranks, map, options, progress).run(); });
 }
 
 }  // namespace glintmark

@@ -39,6 +39,19 @@ std::vector<DeviceInfo> listDevices() {
   return infos;
 }
 
+std::vector<int> devicesLike(const std::string& selector) {
+  const FoundPlatforms found = findPlatforms();
+  const DeviceInfo& chosen = found.devices[chooseDevice(found, selector)].info;
+  std::vector<int> indices = {chosen.index};
+  for (const FoundDevice& other : found.devices) {
+    const DeviceInfo& info = other.info;
+    if (info.index != chosen.index && info.problem.empty() && info.name == chosen.name &&
+        info.platform == chosen.platform)
+      indices.push_back(info.index);
+  }
+  return indices;
+}
+
 Device::Device(const std::string& selector, TimerChoice timer) : impl_(std::make_unique<Impl>()) {
   FoundPlatforms found = findPlatforms();
   FoundDevice& chosen = found.devices[chooseDevice(found, selector)];

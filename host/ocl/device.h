@@ -49,6 +49,10 @@ PlatformList listPlatforms();
 /// All devices of all platforms; empty if there is no OpenCL platform at all (never throws for it).
 std::vector<DeviceInfo> listDevices();
 
+/// Indices of the device that `selector` means (see Device) and of those that are like it, of its
+/// name and platform, and without a problem; that one first. Throws DeviceError like Device.
+std::vector<int> devicesLike(const std::string& selector);
+
 /// Which clock times kernels: the device's while it makes sense, always the device's, or the
 /// wall's.
 enum class TimerChoice { kAuto, kDevice, kWall };

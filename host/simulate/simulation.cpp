@@ -173,17 +173,22 @@ void Simulator::launch(const SimulationSettings& settings, std::uint32_t seed, s
   trace_ns_ += trace_.launch(args, items, local_size).wall_ns;
 }
 
+void Simulator::castSurface(const SimulationSettings& settings, std::uint64_t index,
+                            std::span<std::uint64_t> histogram) {
+  prepare(settings);
+  const std::uint64_t rays = std::min(kRaysPerSurface, settings.rays - index * kRaysPerSurface);
+  launch(settings, launchSeed(settings.seed, index), rays);
+  outcomes_.read(words_.data(), rays * 4);
+  for (std::size_t i = 0; i < rays; ++i) ++histogram[words_[i]];
+}
+
 void Simulator::advance(Simulation& simulation) {
   const SimulationSettings& settings = simulation.settings;
   prepare(settings);
   simulation.histogram.resize(HF_HISTOGRAM_WORDS);
   if (simulation.rays_done >= settings.rays) return;
-  const std::uint32_t seed = launchSeed(settings.seed, simulation.rays_done / kRaysPerSurface);
-  const std::uint64_t rays = std::min(kRaysPerSurface, settings.rays - simulation.rays_done);
-  launch(settings, seed, rays);
-  outcomes_.read(words_.data(), rays * 4);
-  for (std::size_t i = 0; i < rays; ++i) ++simulation.histogram[words_[i]];
-  simulation.rays_done += rays;
+  castSurface(settings, simulation.rays_done / kRaysPerSurface, simulation.histogram);
+  simulation.rays_done = std::min(simulation.rays_done + kRaysPerSurface, settings.rays);
 }
 
 Simulation Simulator::run(const SimulationSettings& settings) {

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
+#include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -72,10 +74,17 @@ class Simulator {
  public:
   Simulator(Device& device, ProgramCache& cache, int lanes);
 
+  /// Compiles and allocates what a simulation needs; others do when they first need it. Throws
+  /// Error for bad settings.
+  void prepare(const SimulationSettings& settings);
   /// Adds the next surface's rays to `simulation`, at most what is missing; does nothing when it is
   /// complete. Results do not depend on where a simulation was interrupted. Throws Error for bad
   /// settings.
   void advance(Simulation& simulation);
+  /// Counts the rays of surface `index` of a simulation, of surfaceCount(), in a histogram of
+  /// HF_HISTOGRAM_WORDS.
+  void castSurface(const SimulationSettings& settings, std::uint64_t index,
+                   std::span<std::uint64_t> histogram);
   /// The whole simulation.
   Simulation run(const SimulationSettings& settings);
 
@@ -86,7 +95,6 @@ class Simulator {
   double surfaceNs() const { return surface_ns_; }
 
  private:
-  void prepare(const SimulationSettings& settings);
   void launch(const SimulationSettings& settings, std::uint32_t seed, std::uint64_t rays);
 
   Device& device_;
@@ -102,6 +110,11 @@ class Simulator {
 };
 
 inline constexpr std::uint64_t kRaysPerSurface = std::uint64_t{1} << 20;
+
+/// Surfaces that so many rays are cast at, the last of them perhaps by fewer than the others.
+constexpr std::uint64_t surfaceCount(std::uint64_t rays) {
+  return (rays + kRaysPerSurface - 1) / kRaysPerSurface;
+}
 
 /// Options of heightfield.cl, or of smith_walk.cl, for a simulation.
 std::string traceOptions(const SimulationSettings& settings, int lanes);

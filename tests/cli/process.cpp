@@ -27,13 +27,47 @@ void redirect(const char* file, int flags, int descriptor) {
   if (opened < 0 || dup2(opened, descriptor) < 0) _exit(kExitNotStarted);
 }
 
+std::vector<char*> pointersTo(const std::vector<std::string>& words) {
+  std::vector<char*> argv;
+  for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
+  argv.push_back(nullptr);
+  return argv;
+}
+
+std::vector<std::string> behind(std::vector<std::string> words,
+                                const std::vector<std::string>& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+// mpirun of the search path; empty without one.
+std::string findMpirun() {
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path == nullptr ? "" : path);
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (const std::string file = folder + "/mpirun"; access(file.c_str(), X_OK) == 0) return file;
+  return "";
+}
+
 }  // namespace
 
 Process::Process(const std::vector<std::string>& arguments,
+                 const std::vector<std::string>& environment, std::size_t most_file_bytes)
+    : Process(kProgram, pointersTo(behind({kProgram}, arguments)), environment, most_file_bytes) {}
+
+Process Process::byRanks(int ranks, const std::vector<std::string>& arguments,
+                         const std::vector<std::string>& environment) {
+  const std::string mpirun = findMpirun();
+  const std::vector<std::string> words = behind(
+      {mpirun, "--oversubscribe", "--bind-to", "none", "-n", std::to_string(ranks), kProgram},
+      arguments);
+  return Process(
+      mpirun.c_str(), pointersTo(words),
+      behind({"OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"}, environment), 0);
+}
+
+Process::Process(const char* program, std::vector<char*> argv,
                  const std::vector<std::string>& environment, std::size_t most_file_bytes) {
-  std::vector<char*> argv = {const_cast<char*>(kProgram)};
-  for (const std::string& word : arguments) argv.push_back(const_cast<char*>(word.c_str()));
-  argv.push_back(nullptr);
   const std::string out = folder_ / "out", err = folder_ / "err";
   pid_ = fork();
   if (pid_ != 0) return;
@@ -46,7 +80,7 @@ Process::Process(const std::vector<std::string>& arguments,
     signal(SIGXFSZ, SIG_IGN);
     if (setrlimit(RLIMIT_FSIZE, &limit) != 0) _exit(kExitNotStarted);
   }
-  execv(kProgram, argv.data());
+  execv(program, argv.data());
   _exit(kExitNotStarted);
 }
 
@@ -101,6 +135,16 @@ ProcessResult Process::wait() {
 ProcessResult runGlintmark(const std::vector<std::string>& arguments,
                            const std::vector<std::string>& environment) {
   return Process(arguments, environment).wait();
+}
+
+bool canShareRanks() {
+  return !findMpirun().empty() &&
+         std::filesystem::exists(GLINTMARK_BINARY_DIR "/bin/glintmark_mpi.so");
+}
+
+ProcessResult runByRanks(int ranks, const std::vector<std::string>& arguments,
+                         const std::vector<std::string>& environment) {
+  return Process::byRanks(ranks, arguments, environment).wait();
 }
 
 std::size_t countOf(const std::string& text, const std::string& part) {

@@ -27,6 +27,9 @@ class Process {
   explicit Process(const std::vector<std::string>& arguments,
                    const std::vector<std::string>& environment = {},
                    std::size_t most_file_bytes = 0);
+  /// Of glintmark by `ranks` ranks of mpirun, on as few processors as there are.
+  static Process byRanks(int ranks, const std::vector<std::string>& arguments,
+                         const std::vector<std::string>& environment = {});
   void interrupt() const;
   void send(int signal) const;
   /// SIGKILL: nothing of the program runs any more.
@@ -39,6 +42,9 @@ class Process {
   ProcessResult wait();
 
  private:
+  Process(const char* program, std::vector<char*> argv, const std::vector<std::string>& environment,
+          std::size_t most_file_bytes);
+
   TempFolder folder_;
   pid_t pid_ = -1;
 };
@@ -46,6 +52,12 @@ class Process {
 /// Starts glintmark with `arguments` and waits for it.
 ProcessResult runGlintmark(const std::vector<std::string>& arguments,
                            const std::vector<std::string>& environment = {});
+
+/// Is there an mpirun, and a glintmark that can be shared among its ranks?
+bool canShareRanks();
+/// Starts glintmark by so many ranks and waits for all.
+ProcessResult runByRanks(int ranks, const std::vector<std::string>& arguments,
+                         const std::vector<std::string>& environment = {});
 
 /// How often `part` stands in a text.
 std::size_t countOf(const std::string& text, const std::string& part);

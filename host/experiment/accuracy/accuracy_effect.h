@@ -47,6 +47,10 @@ class AccuracyEffect {
   /// "glints/ka=16", ...
   virtual std::vector<std::string> cases() const = 0;
   virtual std::vector<Record> measure(const std::string& case_name) = 0;
+  /// Of all ranks, which share the work: makes the truths that cases are held against, and those of
+  /// closer cases. Without it each is made when it is first needed.
+  virtual void prepareTruths() {}
+  virtual void prepareCloserTruths() {}
   /// Cases that say more of settings or of the truth, without times; measured after the others.
   virtual std::vector<std::string> closerCases() const { return {}; }
   virtual std::vector<Record> measureCloser(const std::string& case_name);

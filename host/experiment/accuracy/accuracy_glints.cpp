@@ -19,6 +19,7 @@
 #include "host/experiment/zk16/zk16_case.h"
 #include "host/experiment/zk16/zk16_table.h"
 #include "host/ocl/switches.h"
+#include "host/parallel/ranks.h"
 #include "host/report/metrics.h"
 #include "host/report/picture/tonemap.h"
 #include "host/report/record/case_name.h"
@@ -61,6 +62,11 @@ class GlintSweep : public AccuracySweep {
   std::vector<std::string> closerCases() const override;
   std::vector<Record> measureCloser(const std::string& case_name) override;
   std::string closerText(std::span<const Record> records) const override;
+  void prepareTruths() override { judge_.shareTruths(allRanks(), PixelFilter::kBox); }
+  void prepareCloserTruths() override {
+    for (const PixelFilter filter : {PixelFilter::kBox, PixelFilter::kTent})
+      judge_.shareTruths(allRanks(), filter);
+  }
 
  protected:
   AccuracyFigures figures(std::size_t index, const AccuracyStage& stage,

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "host/core/error.h"
 #include "host/core/stopwatch.h"
@@ -15,8 +16,10 @@
 #include "host/experiment/frame_truth.h"
 #include "host/experiment/msbrdf/msbrdf_cases.h"
 #include "host/fit/lobe_fit.h"
+#include "host/parallel/ranks.h"
 #include "host/report/metrics.h"
 #include "host/report/record/case_name.h"
+#include "host/simulate/shared_simulation.h"
 
 namespace glintmark {
 namespace {
@@ -114,6 +117,7 @@ class MsbrdfSweep : public AccuracyEffect {
   std::vector<std::string> cases() const override;
   std::vector<Record> measure(const std::string& case_name) override;
   std::string leftOut() const override;
+  void prepareTruths() override { truths(allRanks()); }
 
  private:
   struct Truth {
@@ -122,9 +126,9 @@ class MsbrdfSweep : public AccuracyEffect {
     double standard_error = 0;
     std::string failure;
   };
-  const std::vector<Truth>& truths();
-  Image simulate(double alpha, double incidence_deg, std::uint64_t rays, std::uint32_t seed,
-                 std::string& failure);
+  const std::vector<Truth>& truths(const Ranks& ranks = aloneRanks());
+  std::vector<Image> simulate(const Ranks& ranks, const std::vector<SimulationSettings>& runs,
+                              std::string& failure);
   std::vector<Record> measureModel(const std::string& case_name, const Model& model);
   std::vector<Record> measureRays(const std::string& case_name, std::uint64_t rays);
   std::unique_ptr<FrameRenderer> frame(const Scene& scene) const;
@@ -166,37 +170,40 @@ std::string MsbrdfSweep::leftOut() const {
                                     run_.options().rays, fmt::join(left, ", "));
 }
 
-Image MsbrdfSweep::simulate(double alpha, double incidence_deg, std::uint64_t rays,
-                            std::uint32_t seed, std::string& failure) {
-  SimulationSettings settings = diffuseSettings(alpha, incidence_deg, kOrders, rays);
-  settings.seed = seed;
-  Simulation simulation{settings, 0, {}};
-  while (simulation.rays_done < rays) {
-    stopIfInterrupted();
-    simulator_.advance(simulation);
+// Of all `ranks`, which share the runs: what leaves in each of them.
+std::vector<Image> MsbrdfSweep::simulate(const Ranks& ranks,
+                                         const std::vector<SimulationSettings>& runs,
+                                         std::string& failure) {
+  std::vector<Image> lobes;
+  for (const Simulation& simulation : simulateShared(ranks, simulator_, runs, stopIfInterrupted)) {
+    if (simulation.balance() != 1 || simulation.gaveUp() > 0)
+      failure = "the simulation lost or gave up rays";
+    lobes.push_back(simulatedImage(simulation));
   }
-  if (simulation.balance() != 1 || simulation.gaveUp() > 0)
-    failure = "the simulation lost or gave up rays";
-  return simulatedImage(simulation);
+  return lobes;
 }
 
-const std::vector<MsbrdfSweep::Truth>& MsbrdfSweep::truths() {
+const std::vector<MsbrdfSweep::Truth>& MsbrdfSweep::truths(const Ranks& ranks) {
   if (!truths_.empty()) return truths_;
+  std::vector<SimulationSettings> runs;
   for (const double alpha : kAlphas)
-    for (const int incidence_deg : kThetas_deg) {
-      Truth truth{alpha, static_cast<double>(incidence_deg), {}, 0, ""};
-      std::vector<Image> lobes;
-      truth.lobe = Image(kCells, 1, 3);
+    for (const int incidence_deg : kThetas_deg)
       for (std::uint32_t i = 0; i < kTruthSimulations; ++i) {
-        lobes.push_back(simulate(alpha, incidence_deg,
-                                 run_.options().rays * kTruthRays / kTruthSimulations,
-                                 kFirstSimulationSeed + i, truth.failure));
-        for (std::size_t k = 0; k < truth.lobe.pixels.size(); ++k)
-          truth.lobe.pixels[k] += lobes.back().pixels[k] / kTruthSimulations;
+        runs.push_back(diffuseSettings(alpha, incidence_deg, kOrders,
+                                       run_.options().rays * kTruthRays / kTruthSimulations));
+        runs.back().seed = kFirstSimulationSeed + i;
       }
-      truth.standard_error = errorOfMean(truth.lobe, lobes, lobeDifference);
-      truths_.push_back(std::move(truth));
-    }
+  std::string failure;
+  const std::vector<Image> all = simulate(ranks, runs, failure);
+  for (std::size_t first = 0; first < runs.size(); first += kTruthSimulations) {
+    const std::span<const Image> lobes(&all[first], kTruthSimulations);
+    Truth truth{runs[first].alpha.x, runs[first].incidence_deg, Image(kCells, 1, 3), 0, failure};
+    for (const Image& lobe : lobes)
+      for (std::size_t k = 0; k < truth.lobe.pixels.size(); ++k)
+        truth.lobe.pixels[k] += lobe.pixels[k] / kTruthSimulations;
+    truth.standard_error = errorOfMean(truth.lobe, lobes, lobeDifference);
+    truths_.push_back(std::move(truth));
+  }
   return truths_;
 }
 
@@ -251,7 +258,9 @@ std::vector<Record> MsbrdfSweep::measureRays(const std::string& case_name, std::
     std::string failure;
     const double standard_ms = shadeMs(*standard);
     const Stopwatch watch;
-    const Image lobe = simulate(truth.alpha, truth.incidence_deg, rays, kRivalSeed, failure);
+    SimulationSettings settings = diffuseSettings(truth.alpha, truth.incidence_deg, kOrders, rays);
+    settings.seed = kRivalSeed;
+    const Image lobe = simulate(aloneRanks(), {settings}, failure).front();
     times.ms.push_back(watch.elapsedNs() * 1e-6);
     times.ratio.push_back(times.ms.back() / standard_ms);
     all.push_back(figures(truth, lobe));

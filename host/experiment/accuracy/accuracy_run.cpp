@@ -12,6 +12,7 @@
 #include "host/experiment/all_tables.h"
 #include "host/experiment/interrupt.h"
 #include "host/experiment/survival.h"
+#include "host/parallel/ranks.h"
 #include "host/report/record/case_name.h"
 
 namespace glintmark {
@@ -108,15 +109,21 @@ int measureAccuracy(const Session& session, const AccuracySelection& selection,
   std::string left_out, closer;
   for (const AccuracyKind& kind : kinds) {
     const auto effect = kind.make(run, chosenScenes(kind, options.scenes));
-    run.measureCases(accuracySpec().name, chosenCases(effect->cases(), selection.knobs),
-                     {"error", "truth_stderr", "time_ratio"},
-                     [&](const std::string& name) { return effect->measure(name); });
-    run.measureCases(accuracySpec().name, chosenCases(effect->closerCases(), selection.knobs),
-                     {"error", "truth_stderr"},
-                     [&](const std::string& name) { return effect->measureCloser(name); });
+    run.measureCases(
+        accuracySpec().name, chosenCases(effect->cases(), selection.knobs),
+        {"error", "truth_stderr", "time_ratio"},
+        [&](const std::string& name) { return effect->measure(name); },
+        [&] { effect->prepareTruths(); });
+    run.measureCases(
+        accuracySpec().name, chosenCases(effect->closerCases(), selection.knobs),
+        {"error", "truth_stderr"},
+        [&](const std::string& name) { return effect->measureCloser(name); },
+        [&] { effect->prepareCloserTruths(); });
+    if (!allRanks().isFirst()) continue;
     closer += effect->closerText(run.recordsOf(accuracySpec().name));
     if (const std::string left = effect->leftOut(); !left.empty()) left_out += "\n" + left + "\n";
   }
+  if (!allRanks().isFirst()) return kExitDone;
   requireMeasured(run.records().size());
   run.addDerived(accuracyDerived(run.recordsOf(accuracySpec().name)));
   const std::vector<Record> records = run.recordsOf(accuracySpec().name);

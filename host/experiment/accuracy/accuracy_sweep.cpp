@@ -87,24 +87,27 @@ std::vector<std::string> AccuracySweep::cases() const {
 }
 
 std::vector<AccuracyStage>& AccuracySweep::stages() {
-  if (stages_.empty()) {
+  if (stages_.empty())
     for (const std::string& scene : scenes_) stages_.emplace_back(run_, scene);
-    for (const AccuracyStage& stage : stages_)
-      standards_.push_back(stage.renderer(stage.options()));
-  }
   return stages_;
 }
 
+FrameRenderer& AccuracySweep::standard(std::size_t index) {
+  std::unique_ptr<FrameRenderer>& renderer = standards_[index];
+  if (!renderer) renderer = stages()[index].renderer(stages()[index].options());
+  return *renderer;
+}
+
 AccuracyTimes AccuracySweep::measureTimes(std::size_t index, const AccuracySetting& setting) {
-  FrameRenderer& standard = *standards_[index];
+  FrameRenderer& usual = standard(index);
   if (setting.role == kAccuracyDefault) {
-    AccuracyTimes times = timesInTurn(standard, standard, run_.options().reps);
+    AccuracyTimes times = timesInTurn(usual, usual, run_.options().reps);
     times.ratio.assign(times.ms.size(), 1);
     return times;
   }
   ShadingOptions options = stages_[index].options();
   setting.apply(options);
-  return timesInTurn(standard, *stages_[index].renderer(options), run_.options().reps);
+  return timesInTurn(usual, *stages_[index].renderer(options), run_.options().reps);
 }
 
 AccuracyTimes AccuracySweep::measureSampledTimes(std::size_t index,
@@ -116,7 +119,7 @@ AccuracyTimes AccuracySweep::measureSampledTimes(std::size_t index,
   sampled->addSamples(0, 1);  // compiles
   double spent_ms = 0;
   for (int rep = 0; rep < run_.options().reps && (rep == 0 || spent_ms < kLeastTime_ms); ++rep) {
-    const double standard_ms = shadeMs(*standards_[index]);
+    const double standard_ms = shadeMs(standard(index));
     times.ms.push_back(sampled->addSamples(0, samples).shading_event_ns * kMsPerNs);
     times.ratio.push_back(times.ms.back() / standard_ms);
     spent_ms += times.ms.back();

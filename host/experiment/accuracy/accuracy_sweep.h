@@ -79,6 +79,7 @@ class AccuracySweep : public AccuracyEffect {
   BenchRun& run() const { return run_; }
   /// Of every scene, in their order; measured once, the default once for all knobs.
   const std::vector<StageMeasured>& measuredStages(const AccuracySetting& setting);
+  std::vector<AccuracyStage>& stages();
   /// Errors of a setting in stage `index`; called once per setting and stage.
   virtual AccuracyFigures figures(std::size_t index, const AccuracyStage& stage,
                                   const AccuracySetting& setting) = 0;
@@ -90,7 +91,7 @@ class AccuracySweep : public AccuracyEffect {
   }
 
  private:
-  std::vector<AccuracyStage>& stages();
+  FrameRenderer& standard(std::size_t index);
   AccuracyTimes measureTimes(std::size_t index, const AccuracySetting& setting);
   AccuracyTimes measureSampledTimes(std::size_t index, const AccuracySetting& setting);
 
@@ -99,9 +100,9 @@ class AccuracySweep : public AccuracyEffect {
   std::vector<std::string> scenes_;
   std::vector<AccuracySetting> settings_;
   AccuracyNotes notes_;
-  std::vector<AccuracyStage> stages_;                           // loaded when first needed
-  std::vector<std::unique_ptr<FrameRenderer>> standards_;       // the default in every stage
-  std::map<std::string, std::vector<StageMeasured>> measured_;  // by setting, "" the default
+  std::vector<AccuracyStage> stages_;                                // loaded when first needed
+  std::map<std::size_t, std::unique_ptr<FrameRenderer>> standards_;  // the default, by stage
+  std::map<std::string, std::vector<StageMeasured>> measured_;       // by setting, "" the default
 };
 
 }  // namespace glintmark

@@ -8,6 +8,7 @@
 #include "host/experiment/accuracy/scene_table.h"
 #include "host/experiment/frame_truth.h"
 #include "host/experiment/shifted_view.h"
+#include "host/parallel/ranks.h"
 #include "host/report/metrics.h"
 #include "host/report/picture/tonemap.h"
 
@@ -85,8 +86,28 @@ const SampledSweep::Truth& SampledSweep::truth(std::size_t index, const Accuracy
                                                int shift) {
   const auto found = truths_.find({index, shift});
   if (found != truths_.end()) return found->second;
-  const ReplicatedTruth truth = truthOf(stage.run(), stage.scene(), viewOf(stage, shift),
-                                        truthOptions(stage), settings_.spp, stage.textures());
+  return keepTruth(index, stage, shift,
+                   truthOf(stage.run(), stage.scene(), viewOf(stage, shift), truthOptions(stage),
+                           settings_.spp, stage.textures()));
+}
+
+// Batches of all views are dealt out before any truth is put together: a view has few.
+void SampledSweep::prepareTruths() {
+  std::map<std::pair<std::size_t, int>, SharedTruth> shared;
+  RankDeal deal(allRanks().size());
+  for (std::size_t i = 0; i < stages().size(); ++i)
+    for (int shift = 0; shift < settings_.shifts; ++shift) {
+      const View view = viewOf(stages()[i], shift);
+      SharedTruth& truth =
+          shared.emplace(std::pair{i, shift}, SharedTruth(allRanks(), settings_.spp)).first->second;
+      truth.make(*stages()[i].sampler(truthOptions(stages()[i]), &view), deal, stopIfInterrupted);
+    }
+  for (auto& [key, truth] : shared)
+    keepTruth(key.first, stages()[key.first], key.second, truth.join());
+}
+
+const SampledSweep::Truth& SampledSweep::keepTruth(std::size_t index, const AccuracyStage& stage,
+                                                   int shift, const ReplicatedTruth& truth) {
   Truth made;
   made.row = coveredPixels(truth.images.mean);
   made.sane = std::ranges::all_of(truth.replicates, isSane) && !made.row.pixels.empty();

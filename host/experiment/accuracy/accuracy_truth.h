@@ -27,6 +27,7 @@ class SampledSweep : public AccuracySweep {
   std::vector<std::string> closerCases() const override;
   std::vector<Record> measureCloser(const std::string& case_name) override;
   std::string closerText(std::span<const Record> records) const override;
+  void prepareTruths() override;
 
  protected:
   AccuracyFigures figures(std::size_t index, const AccuracyStage& stage,
@@ -40,6 +41,8 @@ class SampledSweep : public AccuracySweep {
     bool sane = false;
   };
   const Truth& truth(std::size_t index, const AccuracyStage& stage, int shift);
+  const Truth& keepTruth(std::size_t index, const AccuracyStage& stage, int shift,
+                         const ReplicatedTruth& truth);
   AccuracyFigures figuresOf(const Truth& right, const AccuracyStage& stage, const View& view,
                             const AccuracySetting& setting) const;
   View viewOf(const AccuracyStage& stage, int shift) const;

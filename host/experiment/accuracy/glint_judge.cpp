@@ -107,25 +107,66 @@ bool GlintJudge::isPlaced(std::size_t stage) const {
   return placeableSide(stage) >= kLeastSide;
 }
 
-GlintJudge::Frames GlintJudge::place(std::size_t stage, int replicate, int side, PixelFilter filter,
-                                     Frames* lobes) {
+GlintJudge::Placed GlintJudge::placeAlone(const PlacedKey& key) {
+  const auto [filter, stage, replicate] = key;
+  const int side = truthSide(stage);
   MicrodetailSurface surface;
   surface.material = glintMaterial(stages_[stage], 0);
   surface.seed = static_cast<std::uint32_t>(1 + replicate + kGlintReplicates * stage);
   const PixelLattice lattice = glintLattice(stages_[stage], replicate, 0, side);
   const glm::dvec2 motion = glintMotion(replicate);
   MicrodetailTruth truth(device_, cache_, lanes_);
-  const auto shown = [&](std::size_t, std::size_t) {
-    progress_(fmt::format("truth of aspect {}, lambda {}: replicate {} of {}",
-                          stages_[stage].aspect, stages_[stage].lambda, replicate + 1,
-                          kGlintReplicates));
-  };
+  const std::string what =
+      fmt::format("truth of aspect {}, lambda {}: replicate {} of {}", stages_[stage].aspect,
+                  stages_[stage].lambda, replicate + 1, kGlintReplicates);
+  const auto shown = [&](std::size_t, std::size_t) { progress_(what); };
   const MicrodetailRatios still =
       truth.place(lattice, surface, glintLight(stages_[stage]), filter, shown);
   const MicrodetailRatios moved = truth.place(lattice.moved(motion.x, motion.y), surface,
                                               glintLight(stages_[stage]), filter, shown);
-  if (lobes != nullptr) *lobes = {redOf(still.lobes), redOf(moved.lobes), side};
-  return {redOf(still.reflecting), redOf(moved.reflecting), side};
+  return {{redOf(still.reflecting), redOf(moved.reflecting), side},
+          {redOf(still.lobes), redOf(moved.lobes), side}};
+}
+
+GlintJudge::Placed GlintJudge::place(const PlacedKey& key) {
+  const auto found = placed_.find(key);
+  if (found == placed_.end()) return placeAlone(key);
+  Placed placed = std::move(found->second);
+  placed_.erase(found);
+  return placed;
+}
+
+void GlintJudge::shareTruths(const Ranks& ranks, PixelFilter filter) {
+  if (!shared_.insert(filter).second) return;
+  std::vector<PlacedKey> keys;
+  for (std::size_t stage = 0; stage < stages_.size(); ++stage)
+    for (int r = 0; r < kGlintReplicates && isPlaced(stage); ++r)
+      keys.emplace_back(filter, stage, r);
+  std::string mine;
+  const auto eachPart = [](Placed& placed, const auto& visit) {
+    for (Frames* frames : {&placed.seen, &placed.lobes})
+      for (std::vector<float>* part : {&frames->still, &frames->moved}) visit(*part);
+  };
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    if (!ranks.makes(i)) continue;
+    Placed placed = placeAlone(keys[i]);
+    eachPart(placed, [&](const std::vector<float>& part) {
+      mine.append(reinterpret_cast<const char*>(part.data()), part.size() * sizeof(float));
+    });
+  }
+  const std::vector<std::string> all = ranks.gather(mine);
+  std::vector<std::size_t> taken(all.size(), 0);
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const int side = truthSide(std::get<1>(keys[i]));
+    const std::size_t maker = i % all.size(), pixels = static_cast<std::size_t>(side * side);
+    Placed& placed = placed_[keys[i]];
+    placed.seen.columns = placed.lobes.columns = side;
+    eachPart(placed, [&](std::vector<float>& part) {
+      part.resize(pixels);
+      taken[maker] += all[maker].copy(reinterpret_cast<char*>(part.data()), pixels * sizeof(float),
+                                      taken[maker]);
+    });
+  }
 }
 
 const GlintJudge::Truth& GlintJudge::truth(std::size_t stage) {
@@ -137,10 +178,10 @@ const GlintJudge::Truth& GlintJudge::truth(std::size_t stage) {
   std::vector<std::vector<float>> stills, lobe_stills;
   for (std::size_t r = 0; r < kGlintReplicates; ++r) {
     if (isPlaced(stage)) {
-      Frames lobes;
-      made.replicates.push_back(place(stage, static_cast<int>(r), side, PixelFilter::kBox, &lobes));
-      lobe_stills.push_back(lobes.still);
-      made.lobes.push_back(std::move(lobes));
+      Placed placed = place({PixelFilter::kBox, stage, static_cast<int>(r)});
+      made.replicates.push_back(std::move(placed.seen));
+      lobe_stills.push_back(placed.lobes.still);
+      made.lobes.push_back(std::move(placed.lobes));
     }
     const Frames& frames = made.replicates[r];
     stills.push_back(frames.still);
@@ -225,7 +266,7 @@ GlintFigures GlintJudge::judged(std::size_t stage, int steps,
 const std::vector<GlintJudge::Frames>& GlintJudge::tentFrames(std::size_t stage) {
   std::vector<Frames>& frames = tents_[stage];
   for (int r = static_cast<int>(frames.size()); r < kGlintReplicates; ++r)
-    frames.push_back(place(stage, r, truthSide(stage), PixelFilter::kTent, nullptr));
+    frames.push_back(place({PixelFilter::kTent, stage, r}).seen);
   return frames;
 }
 

@@ -4,13 +4,17 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "host/experiment/accuracy/glint_axis.h"
 #include "host/microdetail/glint_statistics.h"
+#include "host/microdetail/microdetail_truth.h"
 #include "host/ocl/compute.h"
+#include "host/parallel/ranks.h"
 
 namespace glintmark {
 
@@ -61,6 +65,11 @@ class GlintJudge {
   /// long to place.
   GlintFigures method(const KernelConfig& config, std::size_t stage, bool with_tent);
 
+  /// Of all `ranks`: places the microdetails of all truths that can be placed, which the ranks deal
+  /// out among them; once. Without it they are placed when they are first needed. Box: those that
+  /// methods are held against; tent: those of tents.
+  void shareTruths(const Ranks& ranks, PixelFilter filter);
+
   /// Other forms of the truth held against it: kTruthForms.
   GlintFigures truthForm(const std::string& form, std::size_t stage);
 
@@ -76,8 +85,15 @@ class GlintJudge {
     GlintStatistics mean;                    // over the replicates; `largest` of all
     double noise = 0;                        // W1 of two independent samples of that size
   };
+  // Of one sample, before anything is made of it.
+  struct Placed {
+    Frames seen, lobes;
+  };
+  using PlacedKey = std::tuple<PixelFilter, std::size_t, int>;  // stage, replicate
+  Placed placeAlone(const PlacedKey& key);
   const Truth& truth(std::size_t stage);
-  Frames place(std::size_t stage, int replicate, int side, PixelFilter filter, Frames* lobes);
+  // That of shareTruths(), once, or placed now.
+  Placed place(const PlacedKey& key);
   // How many pixels a side can be placed, at most `side_`; not below 8 in truthSide().
   int placeableSide(std::size_t stage) const;
   int truthSide(std::size_t stage) const;
@@ -96,6 +112,8 @@ class GlintJudge {
   Progress progress_;
   double most_details_;
   std::vector<GlintStage> stages_;
+  std::set<PixelFilter> shared_;
+  std::map<PlacedKey, Placed> placed_;  // by shareTruths(), until a truth is made of it
   std::map<std::size_t, Truth> truths_;
   std::map<std::size_t, std::vector<Frames>> tents_;
   std::map<std::size_t, std::vector<float>> tent_values_;  // of all replicates, ascending

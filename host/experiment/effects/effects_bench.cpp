@@ -9,6 +9,7 @@
 #include "host/experiment/effects/effects_case.h"
 #include "host/experiment/effects/effects_table.h"
 #include "host/experiment/summary_table.h"
+#include "host/parallel/ranks.h"
 #include "host/report/picture/image_io.h"
 
 namespace glintmark {
@@ -59,6 +60,7 @@ void measure(BenchRun& run) {
   EffectsMeasurer measurer(run, std::move(scene), kView);
   run.measureCases(effectsSpec().name, names, effectsMetrics(),
                    [&](const std::string& name) { return measurer.measure(name, sets.at(name)); });
+  if (!allRanks().isFirst()) return;
   writePng(effectsMatrixPicture(run.recordsOf(effectsSpec().name)),
            run.folder() / "effects_matrix.png");
 }

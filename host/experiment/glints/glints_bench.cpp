@@ -13,6 +13,7 @@
 #include "host/experiment/glints/glints_table.h"
 #include "host/ocl/static_counts.h"
 #include "host/ocl/switches.h"
+#include "host/parallel/ranks.h"
 #include "host/report/record/case_name.h"
 
 namespace glintmark {
@@ -177,6 +178,7 @@ void measure(BenchRun& run) {
     const auto index = static_cast<std::size_t>(std::ranges::find(cases, name) - cases.begin());
     return measurement.measure(what[index].first, what[index].second);
   });
+  if (!allRanks().isFirst()) return;
   addComparisons(run);
 }
 

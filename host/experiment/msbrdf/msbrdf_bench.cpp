@@ -5,6 +5,7 @@
 #include "host/experiment/msbrdf/msbrdf_cases.h"
 #include "host/experiment/msbrdf/msbrdf_table.h"
 #include "host/experiment/summary_table.h"
+#include "host/parallel/ranks.h"
 #include "host/report/picture/image_io.h"
 #include "host/report/record/case_name.h"
 
@@ -44,6 +45,7 @@ void measure(BenchRun& run) {
                    bind(measureMetal));
   run.measureCases(table, {kAllCase}, {"runtime_ms", "speedup_vs_w1", "fit_ms", "normalised_cost"},
                    [&run](const std::string&) { return measureMsbrdfCost(run); });
+  if (!allRanks().isFirst()) return;
   writeEnergyChart(run.recordsOf(table), run.folder());
   writePng(sweepPicture(run), run.folder() / kSweepPicture);
 }

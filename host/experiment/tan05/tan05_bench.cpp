@@ -10,7 +10,6 @@
 #include "host/experiment/tan05/tan05_summary.h"
 #include "host/experiment/tan05/tan05_table.h"
 #include "host/experiment/tan05/tan05_view.h"
-#include "host/report/picture/image_io.h"
 #include "host/report/record/case_name.h"
 
 namespace glintmark {
@@ -68,9 +67,9 @@ class ViewMeasurer {
     measureOnce(wanted, [&](const Tan05Scene& loaded) {
       const View& view = loaded.scene.view(view_name);
       Tan05View measured = measureTan05View(run_, loaded, view, tan05Settings(run_));
-      writePng(measured.picture,
-               run_.folder() / fmt::format("{}_{}.png", tan05Spec().name,
-                                           CaseName{{wanted.word(0), view_name}}.fileStem()));
+      run_.keepPicture(measured.picture,
+                       fmt::format("{}_{}.png", tan05Spec().name,
+                                   CaseName{{wanted.word(0), view_name}}.fileStem()));
       return measured;
     });
     return view_.records[wanted.word(2)];

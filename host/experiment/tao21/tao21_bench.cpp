@@ -11,7 +11,6 @@
 #include "host/experiment/tao21/tao21_summary.h"
 #include "host/experiment/tao21/tao21_table.h"
 #include "host/experiment/tao21/tao21_view.h"
-#include "host/report/picture/image_io.h"
 #include "host/report/record/case_name.h"
 
 namespace glintmark {
@@ -76,8 +75,7 @@ class ViewMeasurer {
         material.params.surface.alpha_g = {roughness, roughness};
     }
     Tao21View view = measureTao21View(run_, scene, scene.view(wanted.word(1)), wanted);
-    writePng(view.picture,
-             run_.folder() / fmt::format("{}_{}.png", tao21Spec().name, wanted.fileStem()));
+    run_.keepPicture(view.picture, fmt::format("{}_{}.png", tao21Spec().name, wanted.fileStem()));
     records_ = std::move(view.records);
   }
 

@@ -10,7 +10,6 @@
 #include "host/experiment/zk16/zk16_case.h"
 #include "host/experiment/zk16/zk16_table.h"
 #include "host/report/picture/heatmap.h"
-#include "host/report/picture/image_io.h"
 #include "host/report/record/case_name.h"
 
 namespace glintmark {
@@ -32,7 +31,7 @@ std::vector<Record> measureView(BenchRun& run, const Scene& scene, const std::st
   const Image picture = heatmapPicture(
       measured.counted.cells, {.title = fmt::format("{}/{}, cells per pixel", scene.name, view),
                                .guard_hits = measured.counted.counts.guard_hits});
-  writePng(picture, run.folder() / heatmapFile({{scene.name, view}}));
+  run.keepPicture(picture, heatmapFile({{scene.name, view}}));
   return std::move(measured.records);
 }
 

@@ -1,0 +1,143 @@
+#include "host/parallel/ranks.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <string_view>
+#include <thread>
+#include <utility>
+
+#include "host/core/error.h"
+#include "host/core/program_module.h"
+#include "host/parallel/mpi_ranks.h"
+
+namespace glintmark {
+namespace {
+
+// How long a rank lets the first speak for it, and one that was asked to stop waits for the end.
+constexpr std::chrono::milliseconds kFirstSpeaks{1500};
+constexpr std::chrono::seconds kEndComes{20};
+
+class AloneRanks : public Ranks {
+ public:
+  int rank() const override { return 0; }
+  int size() const override { return 1; }
+  int onThisMachine() const override { return 1; }
+  void sum(std::span<std::uint64_t>) const override {}
+  void sumAtFirst(std::span<std::uint64_t>) const override {}
+  std::vector<std::string> gather(const std::string& bytes) const override { return {bytes}; }
+  std::string fromFirst(const std::string& bytes) const override { return bytes; }
+  void post(const std::string& bytes) override { posted_.push_back({0, bytes}); }
+  std::vector<RankMessage> arrived() override { return std::exchange(posted_, {}); }
+  double waitedNs() const override { return 0; }
+
+ private:
+  std::vector<RankMessage> posted_;
+};
+
+std::unique_ptr<LaunchedRanks> joined;
+std::function<void()> waiting_call;
+
+int numberIn(const char* name, int otherwise) {
+  const char* text = std::getenv(name);
+  if (text == nullptr) return otherwise;
+  const std::string_view view = text;
+  int value = otherwise;
+  const auto parsed = std::from_chars(view.data(), view.data() + view.size(), value);
+  return parsed.ec == std::errc() ? value : otherwise;
+}
+
+}  // namespace
+
+bool Ranks::any(bool mine) const {
+  std::uint64_t count = mine ? 1 : 0;
+  sum({&count, 1});
+  return count > 0;
+}
+
+int RankDeal::next(double cost) {
+  const auto least = std::ranges::min_element(load_);
+  *least += cost;
+  return static_cast<int>(least - load_.begin());
+}
+
+Ranks& aloneRanks() {
+  static AloneRanks alone;
+  return alone;
+}
+
+Ranks& allRanks() {
+  if (joined) return *joined;
+  return aloneRanks();
+}
+
+Launched launched() {
+  // Open MPI; launchers by PMI (Slurm, MPICH).
+  for (const auto& [rank, size] : {std::pair("OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"),
+                                   std::pair("PMI_RANK", "PMI_SIZE")})
+    if (const int count = numberIn(size, 0); count > 0)
+      return {std::clamp(numberIn(rank, 0), 0, count - 1), count};
+  // By PMIx alone the number of ranks is known to MPI only.
+  if (const int rank = numberIn("PMIX_RANK", -1); rank >= 0) return {rank, std::max(2, rank + 1)};
+  return {};
+}
+
+void joinRanks() {
+  const bool has_launcher = std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr || launched().size > 1;
+  if (joined || !has_launcher) return;
+  if (!std::filesystem::exists(modulePath(kMpiModule))) {
+    if (launched().size == 1) return;
+    throw Error(
+        "this glintmark was built without MPI, so mpirun cannot share its work among ranks: start "
+        "it without mpirun, or install libopenmpi-dev and build it anew");
+  }
+  // Open MPI's own modules look for its symbols among those of the program.
+  auto* const join = reinterpret_cast<JoinMpiFunction*>(
+      moduleFunction(kMpiModule, kJoinMpiSymbol, "sharing work among ranks needs", true));
+  joined.reset(join([] {
+    if (waiting_call) waiting_call();
+  }));
+}
+
+void whileWaiting(std::function<void()> call) {
+  waiting_call = std::move(call);
+}
+
+int leaveRanks(int exit_code) {
+  if (joined) joined->leave();
+  return exit_code;
+}
+
+int endRanks(const std::string& sentence, int exit_code) {
+  const Launched self = launched();
+  if (!joined) {
+    if (self.rank == 0) std::fprintf(stderr, "glintmark: %s\n", sentence.c_str());
+    return exit_code;
+  }
+  const Ranks& ranks = *joined;
+  std::fflush(stdout);
+  if (ranks.isFirst()) {
+    std::fprintf(stderr, "glintmark: %s\n", sentence.c_str());
+  } else {
+    std::this_thread::sleep_for(kFirstSpeaks);
+    std::fprintf(stderr, "glintmark: rank %d of %d: %s\n", ranks.rank(), ranks.size(),
+                 sentence.c_str());
+  }
+  std::fflush(stderr);
+  joined->abort(exit_code);
+  return exit_code;
+}
+
+int interruptRanks(const std::string& sentence, int exit_code) {
+  if (!joined || joined->isFirst()) return endRanks(sentence, exit_code);
+  std::this_thread::sleep_for(kEndComes);
+  joined->abort(exit_code);
+  return exit_code;
+}
+
+}  // namespace glintmark
