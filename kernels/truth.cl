@@ -146,11 +146,12 @@ WIDE vfloat3 shadeSample(const SurfaceSample* sample, constant const FrameParams
   share = diffuseShare(lobeAlbedo(sample->view.z, &material->surface), (vfloat)(0.0f),
                        &material->surface);
 #endif
-  const SmithLambda lambda_view = smithLambda(sample->view, material->surface.alpha_g);
+  const SurfaceAlpha alpha = surfaceAlpha(material->surface.alpha_g);
+  const SmithLambda lambda_view = smithLambda(sample->view, alpha);
   vfloat3 sum = {(vfloat)(0.0f), (vfloat)(0.0f), (vfloat)(0.0f)};
   for (uint i = 0; i < frame->light_count; ++i) {
     const vfloat3 light = toLocal(sample->frame, sampleCone(sample, &lights[i], i));
-    LightLobe lobe = pointLobe(light, sample->view, lambda_view, material);
+    LightLobe lobe = pointLobe(light, sample->view, lambda_view, alpha, material);
 #if NORMAL_MAP
     lobe.specular = sample->visible ? lobe.specular : (vfloat)(0.0f);
     lobe.schlick = sample->visible ? lobe.schlick : (vfloat)(0.0f);

@@ -28,6 +28,7 @@ struct ProfileOptions {
   std::string size = "1920x1080", method = defaultMethod();
   std::string normal_method = choiceName(ShadingOptions{}.normal_method);
   std::string ltc_method = choiceName(ShadingOptions{}.ltc_method);
+  std::string geometric_aa = choiceName(ShadingOptions{}.geometric_aa);
   int drawn_lights = 0;
   double seconds = 10;
 };
@@ -63,7 +64,8 @@ int runProfile(const CommandLine& line, const ProfileOptions& options) {
       .method = parseMethod(options.method),
       .normal_method = parseChoice<NormalMethod>(options.normal_method, "normal method"),
       .ltc_method = parseChoice<LtcMethod>(options.ltc_method, "area light method"),
-      .drawn_lights = checkedDrawnLights(options.drawn_lights)};
+      .drawn_lights = checkedDrawnLights(options.drawn_lights),
+      .geometric_aa = parseChoice<GeometricAa>(options.geometric_aa, "geometric antialiasing")};
   if (!options.folder.empty()) requireWritableFolder(options.folder);
   const Scene scene = openScene(line.common, options.scene);
   const View& view = chosenView(scene, options.view);
@@ -108,6 +110,9 @@ void addProfileCommand(Command app, CommandLine& line) {
       .option("--drawn-lights", options->drawn_lights,
               "Draws glints under so many lights of a pixel, all others as one (default: 0, all)")
       .typeName("N");
+  command.option(
+      "--geometric-aa", options->geometric_aa,
+      fmt::format("{} (default: {})", listOf(namesOf<GeometricAa>(), "or"), options->geometric_aa));
   command.option("--normal-method", options->normal_method,
                  fmt::format("{} (default: {})", listOf(namesOf<NormalMethod>(), "or"),
                              options->normal_method));

@@ -44,6 +44,7 @@ struct RenderOptions {
   std::string size = "1920x1080", method = choiceName(kRenderMethod);
   std::string normal_method = choiceName(ShadingOptions{}.normal_method);
   std::string ltc_method = choiceName(ShadingOptions{}.ltc_method);
+  std::string geometric_aa = choiceName(ShadingOptions{}.geometric_aa);
   int drawn_lights = 0;
   int truth_spp = 0;  // 0: a frame
   int frames = 0;     // of a path; 0: one picture, without a number
@@ -276,6 +277,7 @@ int runRender(const CommandLine& line, const RenderOptions& options) {
       .normal_method = parseChoice<NormalMethod>(options.normal_method, "normal method"),
       .ltc_method = parseChoice<LtcMethod>(options.ltc_method, "area light method"),
       .drawn_lights = checkedDrawnLights(options.drawn_lights),
+      .geometric_aa = parseChoice<GeometricAa>(options.geometric_aa, "geometric antialiasing"),
       .glints = !options.no_glints};
   if (options.zoom != 0) return runZoom(common, options, shading);
   const Scene scene = openScene(common, options.scene);
@@ -333,6 +335,9 @@ void addRenderCommand(Command app, CommandLine& line) {
       .option("--drawn-lights", options->drawn_lights,
               "Draws glints under so many lights of a pixel, all others as one (default: 0, all)")
       .typeName("N");
+  command.option(
+      "--geometric-aa", options->geometric_aa,
+      fmt::format("{} (default: {})", listOf(namesOf<GeometricAa>(), "or"), options->geometric_aa));
   command.option("--normal-method", options->normal_method,
                  fmt::format("{} (default: {})", listOf(namesOf<NormalMethod>(), "or"),
                              options->normal_method));

@@ -27,6 +27,12 @@ enum class Plane : std::uint32_t {
   kFrame0,  // uint: packed shading frame, see frame_packing.h
   kFrame1,  // uint
   kDepth,   // float: distance along the view axis, world units
+  kDnxDx,   // float: x, world axes, of how the interpolated normal changes per pixel to the right,
+  kDnyDx,   // over its length; what lies along the normal itself is not taken out
+  kDnzDx,   // float
+  kDnxDy,   // float: the same per pixel down
+  kDnyDy,   // float
+  kDnzDy,   // float
   kCount
 };
 inline constexpr std::size_t kPlaneCount = static_cast<std::size_t>(Plane::kCount);
@@ -41,6 +47,7 @@ class PlaneMask {
   constexpr bool has(Plane p) const { return (bits_ & bit(p)) != 0; }
   constexpr PlaneMask operator|(PlaneMask o) const { return PlaneMask(bits_ | o.bits_); }
   constexpr bool operator==(const PlaneMask&) const = default;
+  constexpr bool hasAnyOf(PlaneMask o) const { return (bits_ & o.bits_) != 0; }
   constexpr std::uint32_t bits() const { return bits_; }
   constexpr std::size_t size() const { return static_cast<std::size_t>(__builtin_popcount(bits_)); }
   /// Position of plane `p` among the planes of this set, in enum order; `p` must be in the set.
@@ -54,6 +61,12 @@ class PlaneMask {
   static constexpr std::uint32_t bit(Plane p) { return 1u << static_cast<std::uint32_t>(p); }
   std::uint32_t bits_ = 0;
 };
+
+/// How the interpolated normal changes from pixel to pixel.
+inline constexpr PlaneMask kNormalSteps = {Plane::kDnxDx, Plane::kDnyDx, Plane::kDnzDx,
+                                           Plane::kDnxDy, Plane::kDnyDy, Plane::kDnzDy};
+/// What is made of the mesh's normals and tangents.
+inline constexpr PlaneMask kFramePlanes = kNormalSteps | PlaneMask{Plane::kFrame0, Plane::kFrame1};
 
 /// The covered pixels of one material: entries [offset, offset + count) of every plane.
 /// `offset` is a multiple of GM_LIST_PADDING; entries up to the next multiple repeat the last one.

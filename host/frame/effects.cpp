@@ -24,6 +24,9 @@ KernelConfig chosenConfig(const ProgramCall& call, int lanes) {
   if (!call.truth) setKnobs(call.options, kEveryProgram, config);
   for (const EffectModule* module : effectModules())
     if (module->choose) module->choose(call, config);
+  // Microdetails and maps have no wider lobe: the mesh's curvature is not theirs.
+  if (!call.truth && !config.glint && !config.normal_map)
+    setKnobs(call.options, &KernelConfig::cone_lights, config);
   config.planes = planesFor(config);
   return config;
 }
@@ -46,6 +49,7 @@ PlaneMask planesFor(const KernelConfig& config) {
   PlaneMask planes = {Plane::kPixel, Plane::kFrame0, Plane::kFrame1};
   for (const Effect effect : effectsOf(config).list())
     planes = planes | effectModule(effect).planes;
+  if (config.geometric_aa != GeometricAa::kNone) planes = planes | kNormalSteps;
   return planes;
 }
 
@@ -61,6 +65,8 @@ KernelConfig truthConfigFor(const Material& material, const Scene& scene,
 
 KernelConfig configForAll(const Scene& scene, const ShadingOptions& options, int lanes) {
   if (options.count_cells) throw Error("one program for all materials does not count cells");
+  if (options.geometric_aa != GeometricAa::kNone)
+    throw Error("one program for all materials knows no geometric antialiasing but none");
   std::vector<KernelConfig> own;
   for (const Material& material : scene.materials)
     own.push_back(configFor(material, scene, options, lanes));

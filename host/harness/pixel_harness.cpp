@@ -44,6 +44,12 @@ std::vector<std::uint32_t> planeWords(const HandMadeFrame& frame, PlaneMask mask
     store(Plane::kDvdy, bitsOf(f.duv_dy.y));
     store(Plane::kFrame0, pixel.frame.frame0);
     store(Plane::kFrame1, pixel.frame.frame1);
+    store(Plane::kDnxDx, bitsOf(pixel.normal_dx.x));
+    store(Plane::kDnyDx, bitsOf(pixel.normal_dx.y));
+    store(Plane::kDnzDx, bitsOf(pixel.normal_dx.z));
+    store(Plane::kDnxDy, bitsOf(pixel.normal_dy.x));
+    store(Plane::kDnyDy, bitsOf(pixel.normal_dy.y));
+    store(Plane::kDnzDy, bitsOf(pixel.normal_dy.z));
   }
   return words;
 }

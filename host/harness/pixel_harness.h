@@ -21,7 +21,8 @@ inline constexpr int kAllWidths[] = {1, 4, 8, 16};
 struct HandMadePixel {
   reference::PixelFootprint footprint;
   PackedFrame frame;
-  std::uint32_t x = 0, y = 0;  // screen position, which decides the view ray
+  std::uint32_t x = 0, y = 0;             // screen position, which decides the view ray
+  glm::dvec3 normal_dx{0}, normal_dy{0};  // change of the unit normal per pixel, world axes
 };
 
 /// Everything a shading launch reads.

@@ -48,6 +48,13 @@ inline constexpr double kExpansionSigmas = 0.01;
 /// error of that mean.
 inline constexpr double kEnergyTolerance = 0.01;
 
+/// Mean of a highlight over pixels that are half as wide again as it, of a lobe widened for them:
+/// what masking by the wider lobe takes, what a bounded sum of Gaussians leaves.
+inline constexpr double kCurvedEnergy = 0.03;
+/// A lobe over a pixel's box, steps up to its roughness, over its brightest: a rectangle for a
+/// parallelogram, and four Gaussians for GGX, which are good to 3.3 %.
+inline constexpr double kFootprintMean = 0.01, kFootprintGgx = 0.035;
+
 /// Under many lights, of which some are drawn as one: distance of pixels' distribution from brute
 /// force, of its mean deviation, where even all drawn one by one are 0.11 off; change as lights of
 /// 0.2 % apart change ranks; and variance, of which 3 % stay open.
@@ -139,6 +146,8 @@ inline constexpr double kLobeWeight = 1e-7, kLobeMean = 1e-6, kLobeVariance = 4e
 inline constexpr double kLobeCosine = 1e-5;
 /// Relative: the rational fit of Smith's Lambda is good to 0.35 % of G1, here for light and view.
 inline constexpr double kMaskingTolerance = 7e-3;
+/// Relative: the fitted share of a Gaussian of normals that lies on the unit disk.
+inline constexpr double kDiskMass = 0.01;
 /// Brightness below which a difference does not show: the peak of the base lobe is above 1.
 inline constexpr double kDark = 1e-4;
 

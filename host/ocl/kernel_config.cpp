@@ -11,8 +11,8 @@ namespace {
 
 // In the order of enum Plane.
 constexpr std::array<const char*, kPlaneCount> kPlaneNames = {
-    "PIXEL", "U_INT", "V_INT", "U_FRAC", "V_FRAC", "DUDX",
-    "DVDX",  "DUDY",  "DVDY",  "FRAME0", "FRAME1", "DEPTH"};
+    "PIXEL",  "U_INT",  "V_INT", "U_FRAC", "V_FRAC", "DUDX",   "DVDX",   "DUDY",   "DVDY",
+    "FRAME0", "FRAME1", "DEPTH", "DNX_DX", "DNY_DX", "DNZ_DX", "DNX_DY", "DNY_DY", "DNZ_DY"};
 
 }  // namespace
 

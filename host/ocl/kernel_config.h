@@ -8,7 +8,7 @@
 
 namespace glintmark {
 
-// GlintMethod, NormalMethod, LtcMethod, Multiscatter, BinomialForm, Maths and EdgeIntegral.
+// GlintMethod, NormalMethod, LtcMethod, Multiscatter, BinomialForm, Maths, EdgeIntegral and GeometricAa.
 #define CHOICES(type) enum class type : int {
 #define CHOICE(enumerator, ...) enumerator,
 #define CHOICES_END \

@@ -26,9 +26,13 @@ using VD = hn::Vec<F64>;
 
 // Pixels are evaluated in blocks, first into here: whole vectors, whatever the count.
 constexpr std::size_t kBlock = 64;
+constexpr Plane kStepPlanes[2][3] = {{Plane::kDnxDx, Plane::kDnyDx, Plane::kDnzDx},
+                                     {Plane::kDnxDy, Plane::kDnyDy, Plane::kDnzDy}};
 struct Block {
   alignas(64) std::uint32_t planes[kPlaneCount][kBlock];
   alignas(64) float b1[kBlock], b2[kBlock];
+  // How barycentrics change per pixel: [0] to the right, [1] down.
+  alignas(64) float b1_step[2][kBlock], b2_step[2][kBlock];
   std::uint32_t* plane(Plane p) { return planes[static_cast<std::size_t>(p)]; }
   float* floats(Plane p) { return reinterpret_cast<float*>(plane(p)); }
 };
@@ -103,6 +107,11 @@ HWY_INLINE void evaluateVector(const DoubleReader<kOneTriangle>& read, hn::Vec<I
   storeFloat(mix(b1_dx, dv1, b2_dx, dv2), block.floats(Plane::kDvdx) + at);
   storeFloat(mix(b1_dy, du1, b2_dy, du2), block.floats(Plane::kDudy) + at);
   storeFloat(mix(b1_dy, dv1, b2_dy, dv2), block.floats(Plane::kDvdy) + at);
+  if (!mask.hasAnyOf(kNormalSteps)) return;
+  storeFloat(b1_dx, block.b1_step[0] + at);
+  storeFloat(b2_dx, block.b2_step[0] + at);
+  storeFloat(b1_dy, block.b1_step[1] + at);
+  storeFloat(b2_dy, block.b2_step[1] + at);
 }
 
 template <class V>
@@ -127,9 +136,30 @@ HWY_INLINE void evaluateBarycentrics(const AttributeTable& table, const std::int
   }
 }
 
+// Changes of the normal, over its length. Steps may be as large as a float: what overflows is
+// cut where uv derivatives are.
+template <class Read>
+HWY_INLINE void storeNormalSteps(const Read& read, const FrameVector& normal, std::size_t i,
+                                 Block& block) {
+  const FrameF d;
+  const auto limit = hn::Set(d, std::numeric_limits<float>::max());
+  const auto length_sq =
+      hn::MulAdd(normal.x, normal.x, hn::MulAdd(normal.y, normal.y, hn::Mul(normal.z, normal.z)));
+  const auto inverse = hn::Div(hn::Set(d, 1.0f), hn::Sqrt(hn::Max(length_sq, hn::Set(d, 1e-30f))));
+  for (std::size_t step = 0; step < 2; ++step)
+    for (std::size_t component = 0; component < 3; ++component) {
+      const auto change =
+          hn::MulAdd(hn::Load(d, block.b2_step[step] + i), read(kNormalD2 + component),
+                     hn::Mul(hn::Load(d, block.b1_step[step] + i), read(kNormalD1 + component)));
+      const auto bounded = hn::Max(hn::Min(hn::Mul(change, inverse), limit), hn::Neg(limit));
+      hn::Store(hn::IfThenElseZero(hn::Eq(bounded, bounded), bounded), d,
+                block.floats(kStepPlanes[step][component]) + i);
+    }
+}
+
 template <bool kOneTriangle>
 HWY_INLINE void packVector(const AttributeTable& table, const std::int32_t* slots, std::size_t i,
-                           Block& block) {
+                           bool with_steps, Block& block) {
   const FrameF d;
   const FrameU du;
   const auto slot = hn::LoadU(FrameI(), slots + i);
@@ -151,16 +181,17 @@ HWY_INLINE void packVector(const AttributeTable& table, const std::int32_t* slot
   packFrames(normal, tangent, mirrored, frame0, frame1);
   hn::Store(frame0, du, block.plane(Plane::kFrame0) + i);
   hn::Store(frame1, du, block.plane(Plane::kFrame1) + i);
+  if (with_steps) storeNormalSteps(read, normal, i, block);
 }
 
 HWY_INLINE void evaluateFrames(const AttributeTable& table, const std::int32_t* slots,
-                               std::size_t count, Block& block) {
+                               std::size_t count, bool with_steps, Block& block) {
   const FrameI di;
   for (std::size_t i = 0; i < count; i += hn::Lanes(di)) {
     if (allSame(hn::LoadU(di, slots + i), slots[i]))
-      packVector<true>(table, slots, i, block);
+      packVector<true>(table, slots, i, with_steps, block);
     else
-      packVector<false>(table, slots, i, block);
+      packVector<false>(table, slots, i, with_steps, block);
   }
 }
 
@@ -179,7 +210,8 @@ HWY_INLINE void copyBlock(const std::uint32_t* HWY_RESTRICT from, std::size_t co
 
 void writeAll(const AttributeTable& table, const TilePixels& pixels, std::uint32_t first,
               std::uint32_t count, std::size_t entry, const PixelPlanes& out) {
-  const bool with_frame = out.mask.has(Plane::kFrame0) || out.mask.has(Plane::kFrame1);
+  const bool with_steps = out.mask.hasAnyOf(kNormalSteps);
+  const bool with_frame = out.mask.hasAnyOf(kFramePlanes);
   const bool with_attributes = !(out.mask == PlaneMask{Plane::kPixel});
   Block block;
   std::size_t n = 0;
@@ -191,7 +223,7 @@ void writeAll(const AttributeTable& table, const TilePixels& pixels, std::uint32
     if (with_attributes)
       evaluateBarycentrics(table, slots, reinterpret_cast<const std::int32_t*>(pixel), n, out.mask,
                            block);
-    if (with_frame) evaluateFrames(table, slots, n, block);
+    if (with_frame) evaluateFrames(table, slots, n, with_steps, block);
 
     for (std::size_t p = 0; p < kPlaneCount; ++p) {
       const auto plane = static_cast<Plane>(p);

@@ -171,7 +171,7 @@ void Rasterizer::Impl::resolveTile(const Camera& camera, std::size_t tile, Pixel
   ResolveScratch& s = *scratch[thread];
   collectTilePixels(projected, bins, tile, nearest.data() + tile * kTilePixels, s.pixels);
   if (s.pixels.pixel_count == 0) return;
-  const bool with_frame = out.mask.has(Plane::kFrame0) || out.mask.has(Plane::kFrame1);
+  const bool with_frame = out.mask.hasAnyOf(kFramePlanes);
   setUpAttributes(*projected.mesh, camera, s.pixels.triangles, s.pixels.triangle_count, with_frame,
                   s.table);
   for (const MaterialRun& run : s.pixels.runs)

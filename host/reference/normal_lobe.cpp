@@ -1,6 +1,7 @@
 #include "host/reference/normal_lobe.h"
 
 #include <algorithm>
+#include <boost/math/distributions/non_central_chi_squared.hpp>
 #include <cmath>
 
 #include "host/core/angles.h"
@@ -30,6 +31,13 @@ NormalLobe lobeFromMoments(const glm::dvec4& moments) {
   return {moments.x, mean, std::max(0.0, 0.5 * (moments.w / moments.x - glm::dot(mean, mean)))};
 }
 
+double massOnDisk(const NormalLobe& lobe) {
+  if (!(lobe.variance > 1e-7)) return 1;
+  const double tilt_sq = glm::dot(lobe.mean, lobe.mean);
+  const boost::math::non_central_chi_squared squares(2, std::max(tilt_sq / lobe.variance, 1e-12));
+  return boost::math::cdf(squares, 1 / lobe.variance);
+}
+
 LobeLight shadeLobe(const NormalLobe& lobe, const glm::dvec3& light, const glm::dvec3& view,
                     double alpha) {
   const double tilt = glm::length(lobe.mean);
@@ -56,7 +64,7 @@ LobeLight shadeLobe(const NormalLobe& lobe, const glm::dvec3& light, const glm::
   LobeLight result;
   if (light_z > 0 && view_z > 0) {
     const double masking = 1 / (1 + smithLambda(light_z, alpha) + smithLambda(view_z, alpha));
-    result.specular = lobe.weight * density * masking / (4 * view_z);
+    result.specular = lobe.weight * density * masking / (4 * view_z * massOnDisk(lobe));
   }
   const double mean_variance = 0.5 * (lobe.variance + lobe.variance / (z * z));
   result.cosine = lobe.weight * std::max(0.0, glm::dot(m, light)) / (1 + mean_variance);

@@ -13,6 +13,9 @@ struct NormalLobe {
 /// The lobe of filtered moments (a, a mean.x, a mean.y, a (2 s^2 + |mean|^2)).
 NormalLobe lobeFromMoments(const glm::dvec4& moments);
 
+/// Share of the Gaussian that lies on the unit disk, where projected normals are.
+double massOnDisk(const NormalLobe& lobe);
+
 struct LobeLight {
   double specular = 0;  // G D / (4 o.n), Fresnel term left out
   double cosine = 0;    // mean of i.n
@@ -22,7 +25,8 @@ struct LobeLight {
 /// `alpha`. The convolved lobe is a Gaussian whose covariance is the sum of both in the tangent
 /// plane of the mean normal. Its exponent is that of slopes around the mean normal and that of
 /// projected normals, weighted by the shares of the variance across the tilt; masking and cosines
-/// are taken at the mean of the normals given the half vector.
+/// are taken at the mean of the normals given the half vector. What of the Gaussian lies on the
+/// disk reflects all of its light.
 LobeLight shadeLobe(const NormalLobe& lobe, const glm::dvec3& light, const glm::dvec3& view,
                     double alpha);
 

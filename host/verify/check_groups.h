@@ -17,6 +17,7 @@ std::vector<Check> cellChecks();          // their cells
 std::vector<Check> colourChecks();        // colours of draws
 std::vector<Check> couplingChecks();      // a diffuse layer under a specular lobe
 std::vector<Check> shadingChecks();       // smooth pixels of coloured materials
+std::vector<Check> curvatureChecks();     // lobes of curved meshes
 std::vector<Check> energyChecks();        // glints on average
 std::vector<Check> zoomChecks();          // glints near, far, and continuous
 std::vector<Check> rivalChecks();         // other authors' glints

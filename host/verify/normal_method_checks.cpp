@@ -51,6 +51,17 @@ std::vector<glm::vec2> clusteredSlopes() {
   return slopes;
 }
 
+// Four clusters that are rows, each turned otherwise: lobes that are round miss them.
+std::vector<glm::vec2> rowsOfSlopes() {
+  std::vector<glm::vec2> slopes;
+  const glm::vec2 centres[] = {{0.35f, 0.3f}, {-0.4f, 0.25f}, {0.3f, -0.35f}, {-0.3f, -0.3f}};
+  const glm::vec2 along[] = {{0.08f, 0}, {0.06f, 0.06f}, {0.06f, -0.06f}, {0, 0.08f}};
+  for (int i = 0; i < 4; ++i)
+    for (const float step : {-1.3f, -0.4f, 0.4f, 1.3f})
+      slopes.push_back(centres[i] + step * along[i]);
+  return slopes;
+}
+
 Scene floorOf(const NormalMap& map) {
   Scene scene = mappedFloor(map);
   for (auto& uv : scene.mesh.uvs) uv *= static_cast<float>(kUvPerUnit);
@@ -107,6 +118,7 @@ const std::vector<glm::vec2> kSquare = {{0.1f, 0.1f}, {-0.1f, 0.1f}, {0.1f, -0.1
 const std::vector<glm::vec2> kAlongU = {{0.2f, 0}, {0.06f, 0}, {0.17f, 0.01f}, {0.09f, -0.01f}};
 const std::vector<glm::vec2> kTilted = {{0.2f, -0.1f}};
 const std::vector<glm::vec2> kClusters = clusteredSlopes();
+const std::vector<glm::vec2> kRows = rowsOfSlopes();
 
 const std::vector<MethodCase>& methodCases() {
   static const std::vector<MethodCase> cases = {
@@ -120,6 +132,13 @@ const std::vector<MethodCase>& methodCases() {
       {"lean_along_u", NormalMethod::kLean, kAlongU, false, kGaussianOfNormals},
       {"fournier_tilted", NormalMethod::kFournier, kTilted, false, kPhongPeaks},
       {"fournier_apart", NormalMethod::kFournier, kApart, false, kPhongPeaks},
+      {"vmf_tilted", NormalMethod::kVmf, kTilted, false, kTiltedLobe},
+      {"vmf_square", NormalMethod::kVmf, kSquare, false, kGaussianOfNormals},
+      {"vmf_lobes_apart", NormalMethod::kVmfLobes, kApart, false, kTiltedLobe},
+      {"vmf_lobes_clusters", NormalMethod::kVmfLobes, kClusters, false, kGaussianOfNormals},
+      {"anisotropic_apart", NormalMethod::kAnisotropic, kApart, false, kTiltedLobe},
+      {"anisotropic_clusters", NormalMethod::kAnisotropic, kClusters, false, kGaussianOfNormals},
+      {"anisotropic_rows", NormalMethod::kAnisotropic, kRows, false, kGaussianOfNormals},
       {"gmm_tilted", NormalMethod::kGmm, kTilted, false, kTiltedLobe},
       {"gmm_apart", NormalMethod::kGmm, kApart, false, kTiltedLobe},
       {"gmm_clusters", NormalMethod::kGmm, kClusters, false, kGaussianOfNormals},

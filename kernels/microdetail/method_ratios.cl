@@ -24,8 +24,9 @@ kernel void methodRatios(global const uint* pixels, constant const MaterialParam
   const float3 half_vector = normalize((float3)(half_u, half_v, 1.0f));
   const vfloat3 direction = {(vfloat)(half_vector.x), (vfloat)(half_vector.y),
                              (vfloat)(half_vector.z)};
+  const SurfaceAlpha alpha = surfaceAlpha(material->surface.alpha_g);
   const LightLobe lobe =
-      pointLobe(direction, direction, smithLambda(direction, material->surface.alpha_g), material);
+      pointLobe(direction, direction, smithLambda(direction, alpha), alpha, material);
   const PixelGlints pixel = makePixelGlints(uv, material GLINT_TABLE_ARGUMENT(glint_table));
   VisitedCells not_counted = {(vint)(0), (vint)(0), (vint)(0)};
   const vfloat3 ratio = microdetailRatio(&pixel, lobe, material, (ConeSlope)(0.0f), &not_counted);

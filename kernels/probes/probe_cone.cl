@@ -14,8 +14,8 @@ kernel void probeCone(global const float* in, global float* out, uint count,
 #define IN(plane) loadFloat(in, (size_t)(plane)*count + i)
   const vfloat3 axis = {IN(0), IN(1), IN(2)}, view = {IN(3), IN(4), IN(5)};
 #undef IN
-  const SmithLambda lambda_view = smithLambda(view, material->surface.alpha_g);
-  const LightLobe lobe = coneLobe(axis, view, lambda_view, material, light);
+  const SurfaceAlpha alpha = surfaceAlpha(material->surface.alpha_g);
+  const LightLobe lobe = coneLobe(axis, view, smithLambda(view, alpha), alpha, material, light);
   storeFloat(lobe.specular, out, i);
   storeFloat(lobe.schlick, out, count + i);
   storeFloat(lobe.cosine, out, 2 * count + i);

@@ -31,9 +31,10 @@ constexpr double kExactTolerance = 2e-3;
 constexpr double kHalfTolerance = 5e-3;
 constexpr int kTruthSpp = 64;
 
-constexpr NormalMethod kAllMethods[] = {NormalMethod::kMip,      NormalMethod::kFixed,
-                                        NormalMethod::kToksvig,  NormalMethod::kLean,
-                                        NormalMethod::kFournier, NormalMethod::kGmm};
+constexpr NormalMethod kAllMethods[] = {
+    NormalMethod::kMip,  NormalMethod::kFixed,    NormalMethod::kToksvig,
+    NormalMethod::kLean, NormalMethod::kFournier, NormalMethod::kGmm,
+    NormalMethod::kVmf,  NormalMethod::kVmfLobes, NormalMethod::kAnisotropic};
 
 struct MappedFloor {
   Scene scene;

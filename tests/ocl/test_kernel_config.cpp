@@ -98,7 +98,8 @@ TEST(KernelConfig, PlanesBecomeTheirSlots) {
   EXPECT_TRUE(buildOptions(config).ends_with(
       " -D PLANE_PIXEL=0 -D PLANE_U_INT=1 -D PLANE_V_INT=2 -D PLANE_U_FRAC=3 -D PLANE_V_FRAC=4"
       " -D PLANE_DUDX=5 -D PLANE_DVDX=6 -D PLANE_DUDY=7 -D PLANE_DVDY=8 -D PLANE_FRAME0=9"
-      " -D PLANE_FRAME1=10 -D PLANE_DEPTH=11"));
+      " -D PLANE_FRAME1=10 -D PLANE_DEPTH=11 -D PLANE_DNX_DX=12 -D PLANE_DNY_DX=13"
+      " -D PLANE_DNZ_DX=14 -D PLANE_DNX_DY=15 -D PLANE_DNY_DY=16 -D PLANE_DNZ_DY=17"));
 }
 
 TEST(KernelConfig, DifferentConfigsGiveDifferentOptions) {

@@ -76,6 +76,7 @@ struct AccuracyKind {
 AccuracyKind glintsAccuracy();
 AccuracyKind ltcAccuracy();
 AccuracyKind gmmAccuracy();
+AccuracyKind curvatureAccuracy();
 AccuracyKind msbrdfAccuracy();
 
 }  // namespace glintmark

@@ -22,7 +22,7 @@ constexpr std::uint64_t kLeastRays = 100'000, kMostRays = 1'000'000'000'000;
 
 // In the order in which they are measured and printed.
 std::vector<AccuracyKind> allKinds() {
-  return {glintsAccuracy(), ltcAccuracy(), gmmAccuracy(), msbrdfAccuracy()};
+  return {glintsAccuracy(), ltcAccuracy(), gmmAccuracy(), curvatureAccuracy(), msbrdfAccuracy()};
 }
 
 std::vector<AccuracyKind> chooseKinds(const std::vector<std::string>& names) {

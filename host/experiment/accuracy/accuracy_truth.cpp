@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "host/experiment/accuracy/scene_table.h"
-#include "host/experiment/frame_truth.h"
 #include "host/experiment/shifted_view.h"
 #include "host/parallel/ranks.h"
 #include "host/report/metrics.h"
@@ -82,13 +81,16 @@ View SampledSweep::viewOf(const AccuracyStage& stage, int shift) const {
   return shiftedView(stage.view(), right_px, up_px, truthOptions(stage).height_px);
 }
 
+ReplicatedTruth SampledSweep::makeTruth(const AccuracyStage& stage, const View& view) const {
+  return truthOf(stage.run(), stage.scene(), view, truthOptions(stage), settings_.spp,
+                 stage.textures());
+}
+
 const SampledSweep::Truth& SampledSweep::truth(std::size_t index, const AccuracyStage& stage,
                                                int shift) {
   const auto found = truths_.find({index, shift});
   if (found != truths_.end()) return found->second;
-  return keepTruth(index, stage, shift,
-                   truthOf(stage.run(), stage.scene(), viewOf(stage, shift), truthOptions(stage),
-                           settings_.spp, stage.textures()));
+  return keepTruth(index, stage, shift, makeTruth(stage, viewOf(stage, shift)));
 }
 
 // Batches of all views are dealt out before any truth is put together: a view has few.
@@ -109,13 +111,14 @@ void SampledSweep::prepareTruths() {
 const SampledSweep::Truth& SampledSweep::keepTruth(std::size_t index, const AccuracyStage& stage,
                                                    int shift, const ReplicatedTruth& truth) {
   Truth made;
+  made.coverage = truth.images.mean;
   made.row = coveredPixels(truth.images.mean);
   made.sane = std::ranges::all_of(truth.replicates, isSane) && !made.row.pixels.empty();
   if (made.sane)
     made.standard_error =
         errorOfMean(truth.images.mean, truth.replicates, [&](const Image& off, const Image& mean) {
-          return principal(settings_.metric, coveredPixels(off), coveredPixels(mean),
-                           stage.scene().post.exposure);
+          return principal(settings_.metric, coveredPixels(off, made.coverage),
+                           coveredPixels(mean, made.coverage), stage.scene().post.exposure);
         });
   return truths_.emplace(std::pair{index, shift}, std::move(made)).first->second;
 }
@@ -139,7 +142,7 @@ AccuracyFigures SampledSweep::figuresOf(const Truth& right, const AccuracyStage&
     figures.failure = stage.name() + ": radiance is negative, not finite or missing";
     return figures;
   }
-  const Image row = coveredPixels(frame);
+  const Image row = coveredPixels(frame, right.coverage);
   const double exposure = stage.scene().post.exposure;
   figures.error = principal(settings_.metric, row, right.row, exposure);
   figures.bias = relativeBias(row, right.row);

@@ -1,6 +1,8 @@
-// Sweeps that are held against a supersampled ground truth: area lights and normal maps.
+// Sweeps that are held against a supersampled ground truth: area lights, normal maps, the mesh's
+// curvature.
 #pragma once
 #include "host/experiment/accuracy/accuracy_sweep.h"
+#include "host/experiment/frame_truth.h"
 
 namespace glintmark {
 
@@ -32,10 +34,20 @@ class SampledSweep : public AccuracySweep {
  protected:
   AccuracyFigures figures(std::size_t index, const AccuracyStage& stage,
                           const AccuracySetting& setting) override;
+  /// The defaults at the truth's size.
+  ShadingOptions truthOptions(const AccuracyStage& stage) const;
+  /// The ground truth of a view, by its kernel unless a sweep has another. Errors are taken over
+  /// the pixels that it covers.
+  virtual ReplicatedTruth makeTruth(const AccuracyStage& stage, const View& view) const;
+  /// The frame by a setting at the truth's size: shaded, or sampled by a replicate that the truth
+  /// has not used.
+  virtual Image image(const AccuracyStage& stage, const View& view,
+                      const AccuracySetting& setting) const;
 
  private:
   // Of one view.
   struct Truth {
+    Image coverage;             // the truth itself
     Image row;                  // linear, covered pixels
     double standard_error = 0;  // in the principal metric
     bool sane = false;
@@ -46,10 +58,6 @@ class SampledSweep : public AccuracySweep {
   AccuracyFigures figuresOf(const Truth& right, const AccuracyStage& stage, const View& view,
                             const AccuracySetting& setting) const;
   View viewOf(const AccuracyStage& stage, int shift) const;
-  // The defaults at the truth's size.
-  ShadingOptions truthOptions(const AccuracyStage& stage) const;
-  // The frame by a setting: shaded, or sampled by a replicate that the truth has not used.
-  Image image(const AccuracyStage& stage, const View& view, const AccuracySetting& setting) const;
 
   SampledTruthSettings settings_;
   std::map<std::pair<std::size_t, int>, Truth> truths_;  // by stage and shift

@@ -9,6 +9,7 @@
 #include "host/filter/normal_moments.h"
 #include "host/mixture/fournier_peaks.h"
 #include "host/mixture/half_mixtures.h"
+#include "host/mixture/lobe_statistics.h"
 #include "host/mixture/mixture_cache.h"
 #include "host/ocl/upload.h"
 
@@ -81,6 +82,17 @@ NormalTexture uploadMixtures(Device& device, const NormalMap& map, int lobes, bo
                        static_cast<std::size_t>(lobes) * 4 * sizeof(std::uint16_t));
 }
 
+// The lobes of the same fit, stored otherwise.
+NormalTexture uploadLobes(Device& device, const NormalMap& map, NormalMethod method, int lobes,
+                          MixtureOrder order, int iterations) {
+  const MixtureOptions options = mixtureOptions(lobes, order, iterations);
+  const NormalMixtures mixtures =
+      cachedNormalMixtures(map, options, DiskCache::fromEnvironment()).mixtures;
+  return uploadTexture(device, method == NormalMethod::kVmfLobes
+                                   ? sphereLobes(map, mixtures, options.surface)
+                                   : covarianceLobes(map, mixtures, options.surface));
+}
+
 NormalTexture makeTexture(Device& device, const NormalMap& map, NormalMethod method, int lobes,
                           bool half, MixtureOrder order, int iterations, bool for_area_lights) {
   switch (method) {
@@ -88,6 +100,7 @@ NormalTexture makeTexture(Device& device, const NormalMap& map, NormalMethod met
       return uploadTexture(device, finestNormals(map));
     case NormalMethod::kMip:
     case NormalMethod::kToksvig:
+    case NormalMethod::kVmf:
       // One lobe under area lights errs less by means of the texels alone.
       return uploadTexture(device, meanNormals(map, !for_area_lights));
     case NormalMethod::kLean:
@@ -96,11 +109,19 @@ NormalTexture makeTexture(Device& device, const NormalMap& map, NormalMethod met
       return uploadTexture(device, fournierPeaks(map, lobes));
     case NormalMethod::kGmm:
       return uploadMixtures(device, map, lobes, half, order, iterations, for_area_lights);
+    case NormalMethod::kVmfLobes:
+    case NormalMethod::kAnisotropic:
+      return uploadLobes(device, map, method, lobes, order, iterations);
   }
-  throw Error("the normal method is unknown; it must be 0 (mip) to 5 (gmm)");
+  throw Error("the normal method is unknown; it must be 0 (mip) to 8 (anisotropic)");
 }
 
 }  // namespace
+
+bool readsMixture(NormalMethod method) {
+  return method == NormalMethod::kGmm || method == NormalMethod::kVmfLobes ||
+         method == NormalMethod::kAnisotropic;
+}
 
 MixtureOptions mixtureOptions(int lobes, MixtureOrder order, int iterations) {
   MixtureOptions options{.lobes = lobes, .surface = MixtureSurface::kInterpolated, .order = order};
@@ -113,18 +134,19 @@ const NormalTexture& NormalTextures::get(const std::shared_ptr<const NormalMap>&
                                          int iterations) {
   // Methods that read the same texture share it.
   NormalMethod method = config.normal_method;
-  if (method == NormalMethod::kMip) method = NormalMethod::kToksvig;
+  if (method == NormalMethod::kMip || method == NormalMethod::kVmf) method = NormalMethod::kToksvig;
+  const bool mixture = readsMixture(method);
   const bool gmm = method == NormalMethod::kGmm;
   const bool for_area_lights =
       gmm ? config.ltc_method == LtcMethod::kMixture && canInterpolate(*map)
           : config.ltc && method == NormalMethod::kToksvig;
-  const int lobes = gmm ? config.lobes : method == NormalMethod::kFournier ? config.peaks : 0;
+  const int lobes = mixture ? config.lobes : method == NormalMethod::kFournier ? config.peaks : 0;
   const Key key = {map,
                    method,
                    lobes,
                    gmm && config.half_texels,
-                   gmm ? order : MixtureOrder::kColours,
-                   gmm ? iterations : 0,
+                   mixture ? order : MixtureOrder::kColours,
+                   mixture ? iterations : 0,
                    for_area_lights};
   const auto found = textures_.find(key);
   if (found != textures_.end()) return found->second;

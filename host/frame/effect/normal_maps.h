@@ -19,7 +19,10 @@ struct NormalTexture {
   std::size_t texel_bytes = 0;
 };
 
-/// How the mixtures of method gmm are fitted; `iterations` 0: the fit's default.
+/// Does a method read a mixture of normals, of as many lobes as the material has?
+bool readsMixture(NormalMethod method);
+
+/// How the mixtures of those methods are fitted; `iterations` 0: the fit's default.
 MixtureOptions mixtureOptions(int lobes, MixtureOrder order, int iterations);
 
 /// Makes textures when they are first asked for and keeps them: nothing is fitted or uploaded that
@@ -28,8 +31,8 @@ class NormalTextures {
  public:
   explicit NormalTextures(Device& device) : device_(device) {}
 
-  /// What `config`'s kernel reads of `map`. `order` says how the mixtures of method gmm are
-  /// aligned, `iterations` how many EM steps a texel takes in the fit (0: its default).
+  /// What `config`'s kernel reads of `map`. `order` says how mixtures are aligned, `iterations` how
+  /// many EM steps a texel takes in the fit (0: its default).
   const NormalTexture& get(const std::shared_ptr<const NormalMap>& map, const KernelConfig& config,
                            MixtureOrder order = MixtureOrder::kColours, int iterations = 0);
   /// The finest level alone: what the ground truth and method fixed read.

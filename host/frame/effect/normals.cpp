@@ -1,12 +1,17 @@
 // A normal map, by default as mixtures of Gaussians. [TAN05]
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "host/core/error.h"
+#include "host/frame/effect/normal_maps.h"
 #include "host/frame/effect_module.h"
 #include "host/ocl/upload.h"
 
 namespace glintmark {
 namespace {
+
+constexpr int kMostAnisotropicLobes = 5;  // what eight float4 hold
 
 // The ground truth reads the map's finest level.
 void chooseNormals(const ProgramCall& call, KernelConfig& config) {
@@ -18,10 +23,12 @@ void chooseNormals(const ProgramCall& call, KernelConfig& config) {
     return;
   }
   setKnobs(call.options, &KernelConfig::normal_map, config);
-  if (config.normal_method == NormalMethod::kGmm)
+  if (readsMixture(config.normal_method))
     config.lobes = call.options.lobes > 0 ? call.options.lobes : source->lobes;
-  else
-    config.half_texels = false;
+  if (config.normal_method != NormalMethod::kGmm) config.half_texels = false;
+  if (config.normal_method == NormalMethod::kAnisotropic && config.lobes > kMostAnisotropicLobes)
+    throw Error(fmt::format("normal method anisotropic has 1 to {} lobes, not {}",
+                            kMostAnisotropicLobes, config.lobes));
   if (config.normal_method == NormalMethod::kFixed) config.anisotropy = config.probes_across = 1;
   // Fournier's peaks are not filtered but evaluated, those of each probe: no more than rows need.
   if (config.normal_method == NormalMethod::kFournier)

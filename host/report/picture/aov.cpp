@@ -78,6 +78,12 @@ std::vector<Source> planeSources(const PixelPlanes& planes) {
   addFloat(sources, planes, Plane::kDvdy, "dvdy");
   addFrame(sources, planes);
   addFloat(sources, planes, Plane::kDepth, "Z");
+  addFloat(sources, planes, Plane::kDnxDx, "dNdx.X");
+  addFloat(sources, planes, Plane::kDnyDx, "dNdx.Y");
+  addFloat(sources, planes, Plane::kDnzDx, "dNdx.Z");
+  addFloat(sources, planes, Plane::kDnxDy, "dNdy.X");
+  addFloat(sources, planes, Plane::kDnyDy, "dNdy.Y");
+  addFloat(sources, planes, Plane::kDnzDy, "dNdy.Z");
   return sources;
 }
 
