@@ -167,6 +167,7 @@ int LobeFitRun::run() {
   fits_.data.refit = fitPolynomials(all);
   fits_.masked = fitPolynomials(all, true);
   fits_.data.eon = fitEonRoughness(fits_.totals);
+  fits_.data.fitted = fitScatter(all, fits_.totals);
   const double polynomials_s = fit_watch.elapsedNs() * 1e-9;
   makeMirror();
   progress_.clear();
