@@ -21,7 +21,7 @@ constexpr int kNormalSteps = 80;
 // differ by.
 constexpr double kRimLobes = 0.06;
 // Long lobes, where the base lobe is as wide as they are across.
-constexpr double kLongLobes = 0.06;
+constexpr double kLongLobes = 0.03;
 // The mean of a cut Gaussian leans from the rim, which the lobe's cosine does not know.
 constexpr double kRimCosines = 0.1;
 
