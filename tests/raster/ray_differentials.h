@@ -63,7 +63,7 @@ inline PlaneHit hitPlane(const TriangleMesh& mesh, std::uint32_t triangle, const
     hit.tangent += hit.bary[i] * glm::dvec3(mesh.tangents[index[i]]);
   }
   if (hit.shows_back)
-    for (glm::dvec3* n : {&hit.normal, &hit.dnormal_dx, &hit.dnormal_dy}) *n = -*n;
+    for (glm::dvec3* turned : {&hit.normal, &hit.dnormal_dx, &hit.dnormal_dy}) *turned = -*turned;
   hit.mirrored = (mesh.tangents[index[0]].w < 0) != hit.shows_back;
   return hit;
 }
