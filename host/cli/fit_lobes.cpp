@@ -242,6 +242,7 @@ int LobeFitRun::run() {
   fits_.data.refit = fitPolynomials(all);
   fits_.masked = fitPolynomials(all, true);
   fits_.data.eon = fitEonRoughness(fits_.totals);
+  fits_.data.fitted = fitScatter(all, fits_.totals);
   const double polynomials_s = fit_watch.elapsedNs() * 1e-9;
   fits_.data.source = fmt::format(
       "glintmark fit lobes: {} rays each at {} roughnesses and {} incidences, mirror: {} rays each",

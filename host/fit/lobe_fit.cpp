@@ -3,6 +3,7 @@
 #include <ceres/ceres.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "host/core/angles.h"
@@ -99,6 +100,43 @@ struct EonCost {
       residuals[i] = eonEnergy(r, data.mu_in, LobeData::cosine(i / LobeData::kAzimuths),
                                LobeData::azimuth(i % LobeData::kAzimuths)) -
                      data.energy[static_cast<std::size_t>(i)];
+    return true;
+  }
+};
+
+constexpr int kFirstOrderFit = 2 * static_cast<int>(kFirstOrderTerms) + 1;
+
+ScatterFit scatterFitOf(const double* c) {
+  ScatterFit fit;
+  for (std::size_t k = 0; k < 2; ++k)
+    for (std::size_t i = 0; i < kFirstOrderTerms; ++i)
+      fit.first[k][i] = c[k * kFirstOrderTerms + i];
+  fit.knee = c[kFirstOrderFit - 1];
+  return fit;
+}
+
+// One simulation against the reciprocal model: its single scattering, or all of it.
+struct ScatterCost {
+  const LobeData& data;
+
+  bool operator()(const double* const c, double* residuals) const {
+    const FirstOrder first = scatterFitOf(c).at(data.alpha);
+    const double scale = 2 * kPi / std::max(data.share, 1e-3);
+    std::array<double, LobeData::kCosines> multiple{};
+    if (data.order == 0) {
+      const ScatterModel model(first);
+      const double lost = (1 - model.albedo(data.mu_in)) / std::max(1 - model.meanAlbedo(), 1e-7);
+      for (int row = 0; row < LobeData::kCosines; ++row)
+        multiple[static_cast<std::size_t>(row)] = lost * (1 - model.albedo(LobeData::cosine(row)));
+    }
+    for (int i = 0; i < kCells; ++i) {
+      const int row = i / LobeData::kAzimuths;
+      const double cosine = LobeData::cosine(row);
+      const double sum =
+          firstOrder(first, data.mu_in, cosine, LobeData::azimuth(i % LobeData::kAzimuths)) +
+          multiple[static_cast<std::size_t>(row)];
+      residuals[i] = scale * (sum * cosine / kPi - data.energy[static_cast<std::size_t>(i)]);
+    }
     return true;
   }
 };
@@ -218,6 +256,26 @@ double eonEnergy(double r, double mu_in, double cosine, double azimuth, double a
   const EonValue value = eonBrdf(
       {sine_in, 0, mu_in}, {sine * std::cos(azimuth), sine * std::sin(azimuth), cosine}, r, albedo);
   return (value.single + value.multiple) * cosine;
+}
+
+ScatterFit fitScatter(const std::vector<LobeData>& data, const std::vector<LobeData>& totals) {
+  double c[kFirstOrderFit] = {};
+  c[kFirstOrderFit - 1] = 0.3;  // about where simulations bend
+  ceres::Problem problem;
+  const auto add = [&](const LobeData& one) {
+    problem.AddResidualBlock(
+        new ceres::NumericDiffCostFunction<ScatterCost, ceres::CENTRAL, kCells, kFirstOrderFit>(
+            new ScatterCost{one}),
+        nullptr, c);
+  };
+  for (const LobeData& one : data)
+    if (one.order == 1) add(one);
+  for (const LobeData& one : totals) add(one);
+  problem.SetParameterLowerBound(c, kFirstOrderFit - 1, 0.01);
+  problem.SetParameterUpperBound(c, kFirstOrderFit - 1, 10);
+  ceres::Solver::Summary summary;
+  ceres::Solve(solverOptions(), &problem, &summary);
+  return scatterFitOf(c);
 }
 
 EonRoughness fitEonRoughness(const std::vector<LobeData>& totals) {

@@ -53,6 +53,10 @@ EonRoughness fitEonRoughness(const std::vector<LobeData>& totals);
 /// EON's energy per solid angle, light at azimuth 0.
 double eonEnergy(double r, double mu_in, double cosine, double azimuth, double albedo = 1);
 
+/// Fits the reciprocal model to single scattering (data of order 1) and to all orders together
+/// (`totals`) at albedo 1, both relative to each simulation's mean.
+ScatterFit fitScatter(const std::vector<LobeData>& data, const std::vector<LobeData>& totals);
+
 /// Root mean square difference between a model of energy per solid angle (of cosine and azimuth)
 /// and the data, over the mean of the data.
 double lobeError(const LobeData& data,

@@ -162,6 +162,56 @@ EonValue eonBrdf(const glm::dvec3& in, const glm::dvec3& out, double r, double a
   return value;
 }
 
+double firstOrder(const FirstOrder& c, double mu_in, double mu_out, double azimuth) {
+  const double s = std::sqrt(std::max(1 - mu_in * mu_in, 0.0)) *
+                   std::sqrt(std::max(1 - mu_out * mu_out, 0.0)) * std::cos(azimuth);
+  const double towards = std::max(s, 0.0);
+  return std::max(c[0] + c[1] * towards / std::max({mu_in, mu_out, 1e-6}) +
+                      c[2] * std::min(s, 0.0) + c[3] * (mu_in + mu_out) + c[4] * mu_in * mu_out +
+                      c[5] * towards,
+                  0.0);
+}
+
+FirstOrder ScatterFit::at(double alpha) const {
+  const double square = alpha * alpha, x = square > 0 ? square / (square + knee) : 0;
+  FirstOrder c{1};
+  for (std::size_t i = 0; i < kFirstOrderTerms; ++i) c[i] += x * (first[0][i] + x * first[1][i]);
+  return c;
+}
+
+ScatterModel::ScatterModel(const FirstOrder& first) : first_(first) {
+  mean_ = 0;
+  for (int i = 0; i < kIncidences; ++i)
+    mean_ += 2 * midpoint(i) * albedo(midpoint(i)) / kIncidences;
+}
+
+double ScatterModel::albedo(double mu) const {
+  // Means over azimuths in closed form: of max(s, 0) the product of both sines over pi.
+  const double sine = std::sqrt(std::max(1 - mu * mu, 0.0));
+  double sum = 0;
+  for (int i = 0; i < 4 * kIncidences; ++i) {
+    const double out = (i + 0.5) / (4 * kIncidences);
+    const double across = sine * std::sqrt(1 - out * out) / kPi;
+    sum += 2 * out *
+           (first_[0] + first_[1] * across / std::max({mu, out, 1e-6}) - first_[2] * across +
+            first_[3] * (mu + out) + first_[4] * mu * out + first_[5] * across);
+  }
+  return std::min(sum / (4 * kIncidences), 1.0);
+}
+
+// The integral of 2 mu sin(mu) / pi over the hemisphere's cosines is 2 / (3 pi).
+double ScatterModel::sineShare() const {
+  return (first_[1] - first_[2] + first_[5]) * 2 / (3 * kPi);
+}
+
+double ScatterModel::energy(double albedo, double mu_in, double mu_out, double azimuth) const {
+  const double colour = albedo * albedo * mean_ / (1 - albedo * std::max(1 - mean_, 0.0));
+  const double lost = (1 - this->albedo(mu_in)) * (1 - this->albedo(mu_out));
+  return mu_out / kPi *
+         (albedo * firstOrder(first_, mu_in, mu_out, azimuth) +
+          colour * lost / std::max(1 - mean_, 1e-7));
+}
+
 double EonRoughness::at(double alpha) const {
   const double square = alpha * alpha;
   return square > 0 ? std::clamp(top * square / (square + knee), 0.0, 1.0) : 0;

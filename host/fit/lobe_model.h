@@ -99,6 +99,44 @@ struct EonValue {
 EonValue eonBrdf(const glm::dvec3& in, const glm::dvec3& out, double r, double albedo);
 /// Directional albedo of its single scattering at albedo 1, exact.
 double eonAlbedo(double mu, double r);
+/// A model of ours that is reciprocal and loses nothing: single scattering is Lambert's times a sum
+/// of six terms of both cosines and of s = w_in . w_out - mu_in mu_out,
+///   c0 + c1 max(s, 0) / max(mu_in, mu_out) + c2 min(s, 0) + c3 (mu_in + mu_out)
+///      + c4 mu_in mu_out + c5 max(s, 0);
+/// what it leaves of the energy is given back as [EON] does.
+inline constexpr std::size_t kFirstOrderTerms = 6;
+using FirstOrder = std::array<double, kFirstOrderTerms>;
+/// The sum for directions of these cosines, `azimuth` apart; at least 0.
+double firstOrder(const FirstOrder& c, double mu_in, double mu_out, double azimuth);
+
+/// The fitted coefficients: c = (1, 0, ...) + x first[0] + x^2 first[1], x = alpha^2 / (alpha^2 +
+/// knee).
+struct ScatterFit {
+  std::array<FirstOrder, 2> first{};
+  double knee = 1;
+
+  FirstOrder at(double alpha) const;
+};
+
+/// The model of one roughness.
+class ScatterModel {
+ public:
+  explicit ScatterModel(const FirstOrder& first);
+
+  /// What single scattering keeps of the energy at albedo 1, of the cosine of incidence; and its
+  /// mean over a white furnace.
+  double albedo(double mu) const;
+  double meanAlbedo() const { return mean_; }
+  /// What the albedo has of the sine of incidence, at normal incidence: the rest is smooth there.
+  double sineShare() const;
+  /// Energy per solid angle.
+  double energy(double albedo, double mu_in, double mu_out, double azimuth) const;
+
+ private:
+  FirstOrder first_;
+  double mean_ = 1;
+};
+
 /// The roughness r of EON that stands for Beckmann roughness alpha: top alpha^2 / (alpha^2 + knee),
 /// the form of Oren and Nayar's own B of the slope variance, at most 1. The numbers are fitted.
 struct EonRoughness {

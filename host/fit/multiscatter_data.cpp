@@ -13,7 +13,7 @@
 namespace glintmark {
 namespace {
 
-constexpr const char* kSchema = "glintmark.multiscatter/2";
+constexpr const char* kSchema = "glintmark.multiscatter/3";
 
 // Index of the cell of `x` in ascending `grid`, and how far in it.
 std::pair<std::size_t, double> locate(const std::vector<double>& grid, double x) {
@@ -44,20 +44,22 @@ double MirrorAlbedo::cosine(double alpha, double t) {
 }
 
 std::string toJson(const MultiscatterData& data) {
-  const nlohmann::json json = {{"schema", kSchema},
-                               {"source", data.source},
-                               {"refit",
-                                {{"scale", data.refit.scale},
-                                 {"exponent", data.refit.exponent},
-                                 {"flattening", data.refit.flattening},
-                                 {"third_order", data.refit.third_order},
-                                 {"third_order_knee", data.refit.third_order_knee}}},
-                               {"eon_roughness", {{"top", data.eon.top}, {"knee", data.eon.knee}}},
-                               {"mirror",
-                                {{"alpha", data.mirror.alphas},
-                                 {"warped_mu", data.mirror.warped},
-                                 {"simulated", data.mirror.simulated},
-                                 {"lobe", data.mirror.lobe}}}};
+  const nlohmann::json json = {
+      {"schema", kSchema},
+      {"source", data.source},
+      {"refit",
+       {{"scale", data.refit.scale},
+        {"exponent", data.refit.exponent},
+        {"flattening", data.refit.flattening},
+        {"third_order", data.refit.third_order},
+        {"third_order_knee", data.refit.third_order_knee}}},
+      {"eon_roughness", {{"top", data.eon.top}, {"knee", data.eon.knee}}},
+      {"fitted", {{"first", data.fitted.first}, {"knee", data.fitted.knee}}},
+      {"mirror",
+       {{"alpha", data.mirror.alphas},
+        {"warped_mu", data.mirror.warped},
+        {"simulated", data.mirror.simulated},
+        {"lobe", data.mirror.lobe}}}};
   return json.dump(1) + "\n";
 }
 
@@ -78,6 +80,9 @@ MultiscatterData readMultiscatterData(const std::filesystem::path& path) {
     const nlohmann::json& eon = json.at("eon_roughness");
     eon.at("top").get_to(data.eon.top);
     eon.at("knee").get_to(data.eon.knee);
+    const nlohmann::json& fitted = json.at("fitted");
+    fitted.at("first").get_to(data.fitted.first);
+    fitted.at("knee").get_to(data.fitted.knee);
     const nlohmann::json& mirror = json.at("mirror");
     mirror.at("alpha").get_to(data.mirror.alphas);
     mirror.at("warped_mu").get_to(data.mirror.warped);

@@ -24,6 +24,7 @@ struct MirrorAlbedo {
 struct MultiscatterData {
   LobePolynomials refit;  // without masking
   EonRoughness eon;
+  ScatterFit fitted;  // the reciprocal model
   MirrorAlbedo mirror;
   std::string source;  // how the figures were made, one sentence
 };

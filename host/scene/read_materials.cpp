@@ -45,12 +45,12 @@ void readCompensation(SceneTable& table, Material& material) {
 }
 
 void readScattering(SceneTable& table, Material& material) {
-  constexpr const char* kNames[] = {"lambert", "published", "refit", "eon"};
+  constexpr const char* kNames[] = {"lambert", "published", "refit", "eon", "fitted"};
   const std::string name = table.text("diffuse_model", "lambert");
   const auto found = std::ranges::find(kNames, name);
   if (found == std::end(kNames))
     table.fail("diffuse_model",
-               fmt::format("is '{}', expected lambert, published, refit or eon", name));
+               fmt::format("is '{}', expected lambert, published, refit, eon or fitted", name));
   material.diffuse_model = static_cast<DiffuseModel>(found - std::begin(kNames));
   material.diffuse_roughness = table.number("diffuse_roughness", 0.5, kReflectance);
   material.diffuse_masking = table.number("diffuse_masking", 0, kReflectance);

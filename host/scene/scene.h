@@ -62,8 +62,9 @@ struct NormalMapSource {
 };
 
 /// Diffuse lobe: Lambert's, or a rough surface that light leaves after several bounces, [PAT18]
-/// with its own coefficients or ours, or energy-preserving Oren-Nayar.
-enum class DiffuseModel : int { kLambert, kPublished, kRefit, kEon };
+/// with its own coefficients or ours, energy-preserving Oren-Nayar, or a model of ours fitted to
+/// single scattering and to all of it.
+enum class DiffuseModel : int { kLambert, kPublished, kRefit, kEon, kFitted };
 
 /// What a specular lobe gets back of the light that it loses to further bounces: nothing, what it
 /// lacks itself, so that a white furnace stays white, or of that what the simulated surfaces lack.

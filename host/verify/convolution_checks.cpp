@@ -20,6 +20,8 @@ constexpr int kNormalSteps = 80;
 // Where a Gaussian is cut: 1 % of the fit of its mass, and what lobes of slopes and of normals
 // differ by.
 constexpr double kRimLobes = 0.06;
+// Long lobes, where the base lobe is as wide as they are across.
+constexpr double kLongLobes = 0.03;
 // The mean of a cut Gaussian leans from the rim, which the lobe's cosine does not know.
 constexpr double kRimCosines = 0.1;
 
@@ -45,17 +47,16 @@ NormalLight lightNormal(const glm::dvec3& n, const glm::dvec3& light, const glm:
 }
 
 // The mean over a Gaussian of normals projected onto the tangent plane, of those that lie on the
-// unit disk: there are no others.
-NormalLight meanOverNormals(const glm::dvec2& mean, double variance, const glm::dvec3& light,
+// unit disk: there are no others. `axes`: a root of its covariance.
+NormalLight meanOverNormals(const glm::dvec2& mean, const glm::dmat2& axes, const glm::dvec3& light,
                             const glm::dvec3& view, double alpha) {
   NormalLight sum;
   double weights = 0;
-  const double reach = 4.5 * std::sqrt(variance);
   for (int i = 0; i < kNormalSteps; ++i)
     for (int j = 0; j < kNormalSteps; ++j) {
-      const glm::dvec2 d = reach * (glm::dvec2(2 * i + 1, 2 * j + 1) / double{kNormalSteps} - 1.0);
-      const double weight = std::exp(-glm::dot(d, d) / (2 * variance));
-      const glm::dvec2 n = mean + d;
+      const glm::dvec2 d = 4.5 * (glm::dvec2(2 * i + 1, 2 * j + 1) / double{kNormalSteps} - 1.0);
+      const double weight = std::exp(-0.5 * glm::dot(d, d));
+      const glm::dvec2 n = mean + axes * d;
       if (glm::dot(n, n) >= 1) continue;
       weights += weight;
       const NormalLight one =
@@ -106,12 +107,69 @@ Finding lobes(const CheckContext& context, const std::vector<ConvolutionCase>& c
     std::vector<NormalLight> want;
     double brightest = 0;
     for (const glm::dvec3& light : lights) {
-      want.push_back(meanOverNormals(mean, c.variance, light, view, c.alpha));
+      want.push_back(
+          meanOverNormals(mean, glm::dmat2(std::sqrt(c.variance)), light, view, c.alpha));
       brightest = std::max(brightest, want.back().specular);
     }
     for (std::size_t i = 0; i < kDirections; ++i) {
       finding.add(std::abs(out[4 * kDirections + i] - want[i].specular) / brightest);
       finding.add(std::abs(out[5 * kDirections + i] - want[i].cosine) * bound / bound_of_cosines);
+    }
+  }
+  return finding;
+}
+
+// The same of lobes ten times as long as wide, at any angle; `cases` give the greater variance.
+Finding longLobes(const CheckContext& context, const std::vector<ConvolutionCase>& cases,
+                  double bound) {
+  constexpr std::size_t kDirections = 64;
+  Finding finding(bound);
+  std::mt19937 random(47);
+  const auto unit = [&] { return std::uniform_real_distribution<double>()(random); };
+  for (const ConvolutionCase& c : cases) {
+    const double turn = 2 * kPi * unit(), angle = kPi * unit();
+    const glm::dvec2 mean = c.tilt * glm::dvec2(std::cos(turn), std::sin(turn));
+    const double length = std::sqrt(c.variance), width = 0.1 * length;
+    const glm::dmat2 axes(length * glm::dvec2(std::cos(angle), std::sin(angle)),
+                          width * glm::dvec2(-std::sin(angle), std::cos(angle)));
+    const glm::dmat2 covariance = axes * glm::transpose(axes);
+    const glm::dvec3 n(mean, std::sqrt(1 - c.tilt * c.tilt));
+    const glm::dvec3 view =
+        glm::normalize(n + glm::dvec3(0.6 * (unit() - 0.5), 0.6 * (unit() - 0.5), 0.2));
+    const double moments[] = {1,
+                              mean.x,
+                              mean.y,
+                              covariance[0][0] + mean.x * mean.x,
+                              covariance[0][1] + mean.x * mean.y,
+                              covariance[1][1] + mean.y * mean.y};
+    std::vector<float> in(12 * kDirections), out(2 * kDirections);
+    std::vector<NormalLight> want;
+    double brightest = 0;
+    for (std::size_t i = 0; i < kDirections;) {
+      const glm::dvec2 off = 2.0 * (axes * glm::dvec2(unit() - 0.5, unit() - 0.5) +
+                                    c.alpha * glm::dvec2(unit() - 0.5, unit() - 0.5));
+      const glm::dvec3 m = glm::normalize(n + glm::dvec3(off, 0));
+      const glm::dvec3 light = glm::normalize(2 * glm::dot(view, m) * m - view);
+      if (glm::dot(light, n) < 0.2 || light.z < 0.05) continue;
+      for (std::size_t k = 0; k < 12; ++k)
+        in[k * kDirections + i] = static_cast<float>(k < 6   ? moments[k]
+                                                     : k < 9 ? light[static_cast<int>(k - 6)]
+                                                             : view[static_cast<int>(k - 9)]);
+      want.push_back(meanOverNormals(mean, axes, light, view, c.alpha));
+      brightest = std::max(brightest, want.back().specular);
+      ++i;
+    }
+    Buffer output(context.bench.device, out.size() * 4, BufferPurpose::kProbe, "shaded lobes");
+    const std::vector<KernelArg> args = {probeData(context.bench, in), output,
+                                         static_cast<std::uint32_t>(kDirections),
+                                         static_cast<float>(c.alpha)};
+    probeKernel(context.bench, "probes/probe_covariance.cl", "probeCovariance",
+                fmt::format("-D WIDTH={} -D DIFFUSE=1", context.lanes))
+        .launch(args, kDirections / static_cast<std::size_t>(context.lanes), kLocalSize);
+    output.read(out.data(), out.size() * 4);
+    for (std::size_t i = 0; i < kDirections; ++i) {
+      finding.add(std::abs(out[i] - want[i].specular) / brightest);
+      finding.add(std::abs(out[kDirections + i] - want[i].cosine));
     }
   }
   return finding;
@@ -196,6 +254,8 @@ std::vector<Check> convolutionChecks() {
                                                       {0.1, 0.03, 0},    {0.05, 0.02, 0.5}};
   static const std::vector<ConvolutionCase> wide = {
       {0.3, 0.01, 0.3}, {0.5, 0.02, 0.4}, {0.3, 0.04, 0.3}};
+  static const std::vector<ConvolutionCase> longer = {
+      {0.1, 0.02, 0}, {0.05, 0.02, 0.3}, {0.1, 0.01, 0.5}, {0.03, 0.03, 0.6}};
   // Up to a third of these Gaussians lies beyond the disk.
   static const std::vector<ConvolutionCase> cut = {
       {0.05, 0.02, 0.8}, {0.1, 0.01, 0.9}, {0.1, 0.03, 0.9}, {0.05, 0.005, 0.95}};
@@ -205,6 +265,8 @@ std::vector<Check> convolutionChecks() {
            [](const CheckContext& context) { return lobes(context, wide, 0.1, 0.1); }},
           {"lobe/convolution_rim", "error over the brightest",
            [](const CheckContext& context) { return lobes(context, cut, kRimLobes, kRimCosines); }},
+          {"lobe/convolution_long", "error over the brightest",
+           [](const CheckContext& context) { return longLobes(context, longer, kLongLobes); }},
           {"texture/parallelogram", "error of waves of 1",
            [](const CheckContext& context) { return footprints(context, 1, kOneRowBounds); }},
           {"texture/parallelogram_2_rows", "error of waves of 1",

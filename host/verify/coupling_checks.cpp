@@ -93,6 +93,7 @@ std::vector<Check> couplingChecks() {
   return {{"coupling/beckmann", measure, of(false, DiffuseModel::kLambert)},
           {"coupling/ggx", measure, of(true, DiffuseModel::kLambert)},
           {"coupling/eon", measure, of(false, DiffuseModel::kEon)},
+          {"coupling/fitted", measure, of(false, DiffuseModel::kFitted)},
           {"coupling/mapped", "most that a mapped surface returns", mappedFurnace},
           {"coupling/area", measure, areaFurnace}};
 }

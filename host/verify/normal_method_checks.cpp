@@ -55,7 +55,7 @@ std::vector<glm::vec2> clusteredSlopes() {
 std::vector<glm::vec2> rowsOfSlopes() {
   std::vector<glm::vec2> slopes;
   const glm::vec2 centres[] = {{0.35f, 0.3f}, {-0.4f, 0.25f}, {0.3f, -0.35f}, {-0.3f, -0.3f}};
-  const glm::vec2 along[] = {{0.08f, 0}, {0.06f, 0.06f}, {0.06f, -0.06f}, {0, 0.08f}};
+  const glm::vec2 along[] = {{0.13f, 0}, {0.09f, 0.09f}, {0.09f, -0.09f}, {0, 0.13f}};
   for (int i = 0; i < 4; ++i)
     for (const float step : {-1.3f, -0.4f, 0.4f, 1.3f})
       slopes.push_back(centres[i] + step * along[i]);

@@ -28,7 +28,13 @@ struct Model {
 };
 constexpr Model kModels[] = {{"published", DiffuseModel::kPublished},
                              {"refit", DiffuseModel::kRefit},
-                             {"eon", DiffuseModel::kEon}};
+                             {"eon", DiffuseModel::kEon},
+                             {"fitted", DiffuseModel::kFitted}};
+
+// Of the others nothing is masked.
+bool hasLobes(DiffuseModel model) {
+  return model == DiffuseModel::kPublished || model == DiffuseModel::kRefit;
+}
 
 struct ScatterCase {
   DiffuseModel model;
@@ -90,6 +96,11 @@ KernelConfig scatterConfig(const CheckContext& context, DiffuseModel model) {
 // Radiance over irradiance at normal incidence, in double precision.
 double expectedRadiance(const Material& material, const LobeModel& lobes, const DirectionPair& d) {
   const double albedo = material.params.surface.albedo.x;
+  if (material.diffuse_model == DiffuseModel::kFitted) {
+    const ScatterModel model(multiscatterData().fitted.at(material.diffuse_roughness));
+    const double azimuth = std::atan2(d.light.y, d.light.x) - std::atan2(d.view.y, d.view.x);
+    return model.energy(albedo, d.light.z, d.view.z, azimuth) / d.view.z * d.light.z;
+  }
   if (material.diffuse_model != DiffuseModel::kEon)
     return lobes.energy(albedo, d.light.z, d.view.z) / d.view.z * d.light.z;
   const double r = multiscatterData().eon.at(material.diffuse_roughness);
@@ -136,7 +147,7 @@ Finding scatteringMatchesReference(const CheckContext& context, DiffuseModel mod
   for (const double alpha : {0.0, 1e-3, 0.04, 0.08, 0.12, 0.2, 0.3, 0.45, 0.6, 0.75, 0.9, 1.0})
     for (const double albedo : {0.0, 0.5, 1.0})
       for (const double masking : {0.0, 0.5, 1.0})
-        if (model != DiffuseModel::kEon || masking == 0)
+        if (hasLobes(model) || masking == 0)
           addMaterial(context, finding, roughMaterial(model, alpha, albedo, masking), pairs);
   return finding;
 }
@@ -180,7 +191,7 @@ Finding horizon(const CheckContext& context, DiffuseModel model) {
 Finding sameScattering(const CheckContext& context, DiffuseModel model) {
   double different = 0;
   const std::vector<DirectionPair> pairs = denseDirections();
-  const Material material = roughMaterial(model, 0.6, 0.8, model == DiffuseModel::kEon ? 0 : 0.7);
+  const Material material = roughMaterial(model, 0.6, 0.8, hasLobes(model) ? 0.7 : 0);
   const std::vector<ScatteredRadiance> one = probeScatter(context.bench, pairs, material, 1),
                                        wide = probeScatter(context.bench, pairs, material,
                                                            context.lanes);

@@ -14,16 +14,18 @@ typedef struct MultiscatterMaterial {
   float4 single;                   // rgb: colour of single scattering over pi; w unused
   float4 multiple;                 // rgb: of the higher orders, with their normalisation; w unused
   float share[MS_DEGREES];         // lobes: energy that single scattering keeps, of the cosine of
-                                   // incidence; EON: what its single scattering loses
+                                   // incidence; EON, fitted: what their single scattering loses
   float crowd[MS_DEGREES];         // lobes: radiance that the higher orders send out of a white
                                    // furnace at albedo 1, over mu^(eta - 1) and over what there is
                                    // for them, of the view's cosine
   float masked_crowd[MS_DEGREES];  // the same, masked on the way in
-  float4 scale;                    // lobes: sigma of the cosine of incidence
-  float4 flattening;               // lobes: sigma_n of it
+  float4 scale;       // lobes: sigma of the cosine of incidence; fitted: the first four
+                      // coefficients of single scattering
+  float4 flattening;  // lobes: sigma_n of it; fitted: the other two
   float compensation[MS_DEGREES];  // metals: 1 / energy of one bounce - 1, of the view's cosine
                                    // warped by MS_WARP
-  float exponent;                  // lobes: eta - 1; EON: its roughness
+  float exponent;                  // lobes: eta - 1; EON: its roughness; fitted: what its single
+                                   // scattering loses with the sine of incidence
   float alpha;                     // lobes: roughness of the masking factor
   float masking;                   // lobes: importance of the masking factor, [0, 1]
   float warp;                      // metals: MS_WARP times the roughness

@@ -23,6 +23,12 @@ double reference(DiffuseModel model, double alpha, double albedo, const glm::dve
     const EonValue v = eonBrdf(light, view, multiscatterData().eon.at(alpha), albedo);
     return (v.single + v.multiple) * light.z;
   }
+  if (model == DiffuseModel::kFitted) {
+    const double azimuth = std::atan2(light.y, light.x) - std::atan2(view.y, view.x);
+    return ScatterModel(multiscatterData().fitted.at(alpha))
+               .energy(albedo, light.z, view.z, azimuth) /
+           view.z * light.z;
+  }
   const LobePolynomials& p =
       model == DiffuseModel::kRefit ? multiscatterData().refit : kPublishedCode;
   return LobeModel(p, alpha).energy(albedo, light.z, view.z) / view.z * light.z;
@@ -30,7 +36,7 @@ double reference(DiffuseModel model, double alpha, double albedo, const glm::dve
 
 TEST(MultiscatterShading, KernelsAgreeWithDoublePrecision) {
   Device& device = testBench().device;
-  for (const char* name : {"published", "refit", "eon"})
+  for (const char* name : {"published", "refit", "eon", "fitted"})
     for (const double alpha : {0.0, 0.08, 0.8, 1.0}) {
       SceneRequest request;
       request.scene = "rough_plane";
@@ -62,7 +68,7 @@ TEST(MultiscatterShading, KernelsAgreeWithDoublePrecision) {
 
 TEST(MultiscatterShading, NothingIsNegativeOrNotANumberAtTheHorizon) {
   Device& device = testBench().device;
-  for (const char* name : {"published", "refit", "eon"}) {
+  for (const char* name : {"published", "refit", "eon", "fitted"}) {
     SceneRequest request;
     request.scene = "rough_plane";
     request.overrides = {fmt::format("material.clay.diffuse_model={}", name),

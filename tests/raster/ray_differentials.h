@@ -15,7 +15,8 @@ struct PlaneHit {
   glm::dvec3 bary{};                  // of the three corners, sum 1
   glm::dvec3 dbary_dx{}, dbary_dy{};  // per pixel
   glm::dvec2 uv{}, duv_dx{}, duv_dy{};
-  glm::dvec3 normal{}, tangent{};  // interpolated, turned to the eye, not normalised
+  glm::dvec3 normal{}, tangent{};         // interpolated, turned to the eye, not normalised
+  glm::dvec3 dnormal_dx{}, dnormal_dy{};  // of that normal, per pixel
   bool mirrored = false;
   bool shows_back = false;
 };
@@ -57,9 +58,12 @@ inline PlaneHit hitPlane(const TriangleMesh& mesh, std::uint32_t triangle, const
     hit.duv_dx += hit.dbary_dx[i] * uv;
     hit.duv_dy += hit.dbary_dy[i] * uv;
     hit.normal += hit.bary[i] * glm::dvec3(mesh.normals[index[i]]);
+    hit.dnormal_dx += hit.dbary_dx[i] * glm::dvec3(mesh.normals[index[i]]);
+    hit.dnormal_dy += hit.dbary_dy[i] * glm::dvec3(mesh.normals[index[i]]);
     hit.tangent += hit.bary[i] * glm::dvec3(mesh.tangents[index[i]]);
   }
-  if (hit.shows_back) hit.normal = -hit.normal;
+  if (hit.shows_back)
+    for (glm::dvec3* turned : {&hit.normal, &hit.dnormal_dx, &hit.dnormal_dy}) *turned = -*turned;
   hit.mirrored = (mesh.tangents[index[0]].w < 0) != hit.shows_back;
   return hit;
 }

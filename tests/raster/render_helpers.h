@@ -41,6 +41,7 @@ void forEachPixel(const PixelPlanes& planes, const Body& body) {
 struct PixelAttributes {
   glm::dvec2 uv_floor, uv_fraction;  // the sum would round at 1e6
   glm::dvec2 duv_dx, duv_dy;
+  glm::dvec3 normal_dx, normal_dy;  // over the normal's length
   double depth;
   PackedFrame packed;
   ShadingFrame frame;
@@ -56,6 +57,8 @@ inline PixelAttributes readEntry(const PixelPlanes& planes, std::size_t i) {
   a.uv_fraction = {fraction(Plane::kUFrac), fraction(Plane::kVFrac)};
   a.duv_dx = {real(Plane::kDudx), real(Plane::kDvdx)};
   a.duv_dy = {real(Plane::kDudy), real(Plane::kDvdy)};
+  a.normal_dx = {real(Plane::kDnxDx), real(Plane::kDnyDx), real(Plane::kDnzDx)};
+  a.normal_dy = {real(Plane::kDnxDy), real(Plane::kDnyDy), real(Plane::kDnzDy)};
   a.depth = real(Plane::kDepth);
   a.packed = {planes.plane(Plane::kFrame0)[i], planes.plane(Plane::kFrame1)[i]};
   a.frame = unpackFrame(a.packed);

@@ -12,6 +12,8 @@ constexpr double kUvBound = 2e-9;
 // Single precision: half a unit in the last place of the largest derivative of the pixel, with room
 // for cancellation between its two terms.
 constexpr double kDerivativeBound = 1e-6;
+// Differences of corners' normals and their steps, both in single precision.
+constexpr double kNormalStepBound = 3e-6;
 constexpr double kDepthBound = 1e-6;
 // Quantization of the frame (frame_packing.h: 4e-6) and single-precision interpolation.
 constexpr double kFrameBound_rad = 5e-6;
@@ -53,6 +55,10 @@ std::size_t expectAttributes(const TriangleMesh& mesh, const Camera& camera,
                                   std::abs(hit.duv_dy.x), std::abs(hit.duv_dy.y)});
     EXPECT_LE(glm::length(a.duv_dx - hit.duv_dx), kDerivativeBound * size);
     EXPECT_LE(glm::length(a.duv_dy - hit.duv_dy), kDerivativeBound * size);
+    const double length = glm::length(hit.normal);
+    const double turn = std::max(glm::length(hit.dnormal_dx), glm::length(hit.dnormal_dy));
+    EXPECT_LE(glm::length(a.normal_dx * length - hit.dnormal_dx), kNormalStepBound * (turn + 1e-3));
+    EXPECT_LE(glm::length(a.normal_dy * length - hit.dnormal_dy), kNormalStepBound * (turn + 1e-3));
     EXPECT_NEAR(a.depth, hit.depth, kDepthBound * hit.depth);
     expectFrame(a, hit);
   });

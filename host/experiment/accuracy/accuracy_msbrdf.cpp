@@ -40,7 +40,8 @@ struct Model {
 constexpr Model kModels[] = {{"lambert", DiffuseModel::kLambert},
                              {"published", DiffuseModel::kPublished},
                              {"refit", DiffuseModel::kRefit},
-                             {"eon", DiffuseModel::kEon}};
+                             {"eon", DiffuseModel::kEon},
+                             {"fitted", DiffuseModel::kFitted}};
 constexpr DiffuseModel kDefaultModel = DiffuseModel::kEon;  // of the scenes
 
 struct RayCount {

@@ -192,10 +192,11 @@ std::string coefficientTable(const LobeFits& fits) {
 
 std::string eonTable(const LobeFits& fits) {
   TextTable table({"all orders: alpha", "EON r", "error, r fitted", "error, r = alpha", "Lambert",
-                   "refit", "PAT18 code"});
+                   "refit", "PAT18 code", "fitted"});
   for (std::size_t a = 0; a < fits.alphas.size(); ++a) {
     const double alpha = fits.alphas[a], r = fits.data.eon.at(alpha);
-    double sums[5] = {};
+    double sums[6] = {};
+    const ScatterModel fitted(fits.data.fitted.at(alpha));
     for (std::size_t i = 0; i < fits.incidences_deg.size(); ++i) {
       const LobeData& data = fits.totals[a * fits.incidences_deg.size() + i];
       const double mu = data.mu_in;
@@ -214,6 +215,9 @@ std::string eonTable(const LobeFits& fits) {
       sums[2] += lobeError(data, [](double cosine, double) { return cosine / kPi; });
       sums[3] += lobeError(data, whole(fits.data.refit));
       sums[4] += lobeError(data, whole(kPublishedCode));
+      sums[5] += lobeError(data, [&](double cosine, double azimuth) {
+        return fitted.energy(1, mu, cosine, azimuth);
+      });
     }
     std::vector<std::string> row = {fmt::format("{:.3f}", alpha), fmt::format("{:.3f}", r)};
     for (const double sum : sums)

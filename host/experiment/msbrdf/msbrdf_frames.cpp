@@ -74,6 +74,7 @@ void addRuntimes(BenchRun& run, const Scene& scene, MsbrdfCase& result) {
       "kernel events with the refit minus Lambert's, in turn");
   add("runtime_published_ms", model(DiffuseModel::kPublished), "");
   add("runtime_eon_ms", model(DiffuseModel::kEon), "");
+  add("runtime_fitted_ms", model(DiffuseModel::kFitted), "");
   add(
       "runtime_masking_ms",
       [](Material& material) {
@@ -196,7 +197,8 @@ Image sweepPicture(BenchRun& run) {
   constexpr std::pair<DiffuseModel, const char*> kRows[] = {{DiffuseModel::kLambert, "Lambert"},
                                                             {DiffuseModel::kPublished, "published"},
                                                             {DiffuseModel::kRefit, "refit"},
-                                                            {DiffuseModel::kEon, "EON"}};
+                                                            {DiffuseModel::kEon, "EON"},
+                                                            {DiffuseModel::kFitted, "fitted"}};
   const Scene scene = openScene(run.session().common, "rough_knot");
   const ShadingOptions options{.width_px = 200, .height_px = 160, .lanes = run.info().width};
   std::vector<Image> rows;

@@ -65,6 +65,11 @@ std::function<double(double, double)> diffuseEnergy(DiffuseModel model, double a
   if (model == DiffuseModel::kLambert)
     return [albedo](double cosine, double) { return albedo * cosine / kPi; };
   if (model == DiffuseModel::kEon) return eonOf(multiscatterData().eon.at(alpha), mu_in, albedo);
+  if (model == DiffuseModel::kFitted)
+    return [fitted = ScatterModel(multiscatterData().fitted.at(alpha)), mu_in, albedo](
+               double cosine, double azimuth) {
+      return fitted.energy(albedo, mu_in, cosine, azimuth);
+    };
   const LobePolynomials& set =
       model == DiffuseModel::kPublished ? kPublishedCode : multiscatterData().refit;
   return [lobes = LobeModel(set, alpha), mu_in, albedo](double cosine, double) {
@@ -120,9 +125,9 @@ std::vector<Record> measureSurface(BenchRun& run, const std::string& name) {
 std::vector<Record> measureModel(BenchRun& run, const std::string& name) {
   const double alpha = CaseName::parse(name).number(kAlphaKnob);
   Simulator simulator(run.device(), run.cache(), run.info().width);
-  constexpr std::size_t kModels = 5, kWithFurnace = 3;
-  constexpr const char* kSuffixes[kModels] = {"", "_published", "_eon", "_eon_unfitted",
-                                              "_lambert"};
+  constexpr std::size_t kModels = 6, kWithFurnace = 4;
+  constexpr const char* kSuffixes[kModels] = {"",        "_published",    "_eon",
+                                              "_fitted", "_eon_unfitted", "_lambert"};
   Samples errors[kModels], furnaces[kWithFurnace], simulated;
   for (const double incidence_deg : kMsbrdfThetas_deg) {
     stopIfInterrupted();
@@ -133,7 +138,9 @@ std::vector<Record> measureModel(BenchRun& run, const std::string& name) {
     const std::function<double(double, double)> models[kModels] = {
         diffuseEnergy(DiffuseModel::kRefit, alpha, mu),
         diffuseEnergy(DiffuseModel::kPublished, alpha, mu),
-        diffuseEnergy(DiffuseModel::kEon, alpha, mu), eonOf(alpha, mu),
+        diffuseEnergy(DiffuseModel::kEon, alpha, mu),
+        diffuseEnergy(DiffuseModel::kFitted, alpha, mu),
+        eonOf(alpha, mu),
         diffuseEnergy(DiffuseModel::kLambert, alpha, mu)};
     for (std::size_t i = 0; i < kModels; ++i) {
       errors[i].push_back(lobeError(data, models[i]));

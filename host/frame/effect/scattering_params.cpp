@@ -63,6 +63,23 @@ void prepareEon(const MaterialParams& material, double r, MultiscatterMaterial& 
   interpolateAtChebyshevPoints([&](double mu) { return 1 - eonAlbedo(mu, r); }, out.share);
 }
 
+void prepareFitted(const MaterialParams& material, const FirstOrder& c, MultiscatterMaterial& out) {
+  const ScatterModel model(c);
+  const double mean = model.meanAlbedo();
+  const auto f = [&c](std::size_t i) { return static_cast<float>(c[i]); };
+  out.scale = {f(0), f(1), f(2), f(3)};
+  out.flattening = {f(4), f(5), 0, 0};
+  out.single = mapColour(material.surface.albedo, [](double rho) { return rho / kPi; });
+  out.multiple = mapColour(material.surface.albedo, [&](double rho) {
+    return rho * rho * mean / (1 - rho * (1 - mean)) / kPi / std::max(1 - mean, 1e-7);
+  });
+  // The sine at normal incidence is no polynomial's business.
+  const double sine = model.sineShare();
+  out.exponent = static_cast<float>(-sine);
+  interpolateAtChebyshevPoints(
+      [&](double mu) { return 1 - model.albedo(mu) + sine * std::sqrt(1 - mu * mu); }, out.share);
+}
+
 // Metals: what one bounce leaves out, over what it reflects. [Turquin19] Eq. 16
 void prepareCompensation(const Material& material, const MirrorAlbedo& mirror,
                          MultiscatterMaterial& out) {
@@ -94,6 +111,8 @@ MultiscatterMaterial prepareMultiscatter(const Material& material, const KernelC
   if (config.multiscatter == Multiscatter::kRefit) prepareLobes(material, fits().refit, out);
   if (config.multiscatter == Multiscatter::kEon)
     prepareEon(material.params, fits().eon.at(alpha), out);
+  if (config.multiscatter == Multiscatter::kFitted)
+    prepareFitted(material.params, fits().fitted.at(alpha), out);
   if (config.metal_compensation) prepareCompensation(material, fits().mirror, out);
   return out;
 }
