@@ -32,8 +32,8 @@ constexpr int kGrain = 8;
 // Normals between two calls of the progress, about half a second of one processor.
 constexpr double kNormalsPerCall = 1 << 22;
 // What is shared among ranks takes each of them milliseconds, since telling the others takes half
-// of one: so many blocks of a batch, so many normals of a texel.
-constexpr int kLeastSharedBlocks = 256;
+// of one: so many blocks of a batch, or so many normals; of long rows a few blocks.
+constexpr int kLeastSharedBlocks = 256, kLeastLongBlocks = 4;
 constexpr double kLeastSharedNormals = 1 << 22;
 
 // Sums over the texels of a level.
@@ -147,18 +147,18 @@ class MixtureFit {
       return BlockTexels{batch, b * size, std::min(size, batch.count - b * size)};
     };
     std::vector<Tally> made;  // where ranks have a part in it
-    if (sharesTexels(geometry)) {
+    sharing_ = sharingOf(geometry, blocks);
+    if (sharing_ == Sharing::kNormals) {
       // One after the other: every rank takes part in each.
       for (int b = 0; b < blocks; ++b) made.push_back(run(texels(b)));
-    } else if (ranks_.size() > 1 && !geometry.hasLongRows() &&
-               blocks >= kLeastSharedBlocks * ranks_.size()) {
+    } else if (sharing_ == Sharing::kBlocks) {
       made.resize(static_cast<std::size_t>(blocks));
       tbb::parallel_for(0, blocks, [&](int b) {
         if (ranks_.makes(static_cast<std::size_t>(b)))
           made[static_cast<std::size_t>(b)] = run(texels(b));
       });
       shareRows(ranks_, std::span(made), 1);
-      shareStates(level, batch, size, blocks);
+      shareStates(level, batch, size);
     }
     const int per_call = std::max(
         1, static_cast<int>(kNormalsPerCall / std::max(1.0, size * geometry.normalsPerTexel())));
@@ -179,22 +179,37 @@ class MixtureFit {
     return sum;
   }
 
-  // Do ranks share the normals below each texel?
-  bool sharesTexels(const MixtureLevel& geometry) const {
-    return ranks_.size() > 1 && geometry.hasLongRows() &&
-           geometry.normalsPerTexel() >= kLeastSharedNormals;
+  // What of a batch ranks share: where it is little, every rank does all of it.
+  enum class Sharing { kNothing, kBlocks, kNormals };
+  Sharing sharingOf(const MixtureLevel& geometry, int blocks) const {
+    const int size = ranks_.size();
+    if (size == 1) return Sharing::kNothing;
+    if (!geometry.hasLongRows())
+      return blocks >= kLeastSharedBlocks * size ? Sharing::kBlocks : Sharing::kNothing;
+    const double normals = geometry.normalsPerTexel();
+    if (blocks >= kLeastLongBlocks * size && normals * blocks >= kLeastSharedNormals)
+      return Sharing::kBlocks;
+    return normals >= kLeastSharedNormals ? Sharing::kNormals : Sharing::kNothing;
   }
 
   // Of all ranks: mixtures of the batch's texels, each block from the rank that has fitted it.
-  void shareStates(int level, const TexelBatch& batch, int size, int blocks) {
-    const auto lobes = static_cast<std::size_t>(options_.lobes);
-    const std::size_t row = static_cast<std::size_t>(size) * lobes;
-    std::vector<float4> states(static_cast<std::size_t>(blocks) * row);
+  void shareStates(int level, const TexelBatch& batch, int size) {
+    const std::size_t bytes = static_cast<std::size_t>(options_.lobes) * sizeof(float4);
+    const auto maker = [&](int i) { return static_cast<std::size_t>(i / size % ranks_.size()); };
+    const auto own = static_cast<std::size_t>(ranks_.rank());
+    std::string mine;
+    mine.reserve(static_cast<std::size_t>(batch.count) * bytes);
     for (int i = 0; i < batch.count; ++i)
-      std::copy_n(state(level, batch.at(i)), lobes, &states[static_cast<std::size_t>(i) * lobes]);
-    shareRows(ranks_, std::span(states), row);
-    for (int i = 0; i < batch.count; ++i)
-      std::copy_n(&states[static_cast<std::size_t>(i) * lobes], lobes, state(level, batch.at(i)));
+      if (maker(i) == own)
+        mine.append(reinterpret_cast<const char*>(state(level, batch.at(i))), bytes);
+    const std::vector<std::string> all = ranks_.gather(mine);
+    std::vector<std::size_t> taken(all.size(), 0);
+    for (int i = 0; i < batch.count; ++i) {
+      const std::size_t from = maker(i);
+      if (from == own) continue;
+      all[from].copy(reinterpret_cast<char*>(state(level, batch.at(i))), bytes, taken[from]);
+      taken[from] += bytes;
+    }
   }
 
   // E-step of the block's texels.
@@ -204,8 +219,8 @@ class MixtureFit {
       expectBlock(block, options_.lobes, scratch.view(geometry.mostNormals()), likelihood);
       return;
     }
-    expectLongRows(geometry.rows(texels.at(0)), sharesTexels(geometry) ? ranks_ : aloneRanks(),
-                   likelihood, block);
+    expectLongRows(geometry.rows(texels.at(0)),
+                   sharing_ == Sharing::kNormals ? ranks_ : aloneRanks(), likelihood, block);
   }
 
   // Of all `ranks`.
@@ -391,6 +406,7 @@ class MixtureFit {
   NormalMixtures result_;
   int level_count_ = 0;
   double done_ = 0;  // sweeps over levels
+  Sharing sharing_ = Sharing::kNothing;  // of the batch in hand
   tbb::enumerable_thread_specific<Scratch> scratch_;
 };
 
