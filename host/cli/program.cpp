@@ -102,10 +102,8 @@ int runProgram(int argc, const char* const* argv) {
 
   if (launched().rank > 0) muteOutput();
   if (const std::optional<int> done = parser.parse(argc, argv)) return *done;
-  // Threads beyond a control group's quota would only wait for each other.
-  if (line.common.threads == 0) line.common.threads = usableCores();
-  if (line.common.quiet) Progress::silenceAll();
   joinRanksOf(line);
+  if (line.common.quiet) Progress::silenceAll();
   return line.action();
 }
 

@@ -144,6 +144,8 @@ void checkRenderOptions(const RenderOptions& options) {
     throw Error("--frames and --path go together: so many pictures along a path");
   if (options.zoom != 0 && (options.frames_given || options.truth_spp > 0))
     throw Error("--zoom makes a strip of frames; it does not go with --truth or --frames");
+  if (options.zoom != 0 && (options.star || options.background))
+    throw Error("--zoom shows the meshes alone; it does not go with --star or --background");
   if (options.frames_given && !(options.aov_output.empty() && options.trace.empty()))
     throw Error("--path makes no planes and no trace; leave --aov and --trace out");
   if (options.truth_spp > 0 && !(options.aov_output.empty() && options.trace.empty()))
@@ -281,6 +283,9 @@ int runRender(const CommandLine& line, const RenderOptions& options) {
       .glints = !options.no_glints};
   if (options.zoom != 0) return runZoom(common, options, shading);
   const Scene scene = openScene(common, options.scene);
+  if (options.background && scene.environment.map == nullptr)
+    throw Error(
+        fmt::format("scene {} has no environment that --background could show", scene.name));
   const View& view = chosenView(scene, options.view);
   Device device = openDevice(common);
   RunInfo run = describeRun(line, device);
@@ -314,6 +319,17 @@ int runRender(const CommandLine& line, const RenderOptions& options) {
              prepared, shaded, read.readback_ns, device.clock().timer());
   return code;
 }
+
+constexpr char kRenderExamples[] =
+    "Examples:\n"
+    "  glintmark render snow -o snow.png --view grazing\n"
+    "  glintmark render sand -o sand.exr --star --size 3840x2160\n"
+    "  glintmark render screen_plane -o zoom.png --zoom 20 --size 128x128\n"
+    "  glintmark render car -o car.png --aov planes.exr --set material.paint.log_density=7\n"
+    "  glintmark render disk -o truth.exr --truth 256 && glintmark render disk -o lean.exr \\\n"
+    "    --normal-method lean && glintmark diff lean.exr truth.exr -o error.png\n"
+    "  glintmark render snow -o snow.png --frames 24 --path orbit --step 0.5\n"
+    "  glintmark render snow -o snow.png --trace trace.json    (open it at ui.perfetto.dev)";
 
 }  // namespace
 
@@ -368,16 +384,7 @@ void addRenderCommand(Command app, CommandLine& line) {
       command.flag("--background,!--no-background", options->background,
                    "The environment behind the meshes (default: for PNG)");
   command.option("--exposure", options->exposure, "Scale before tone mapping").typeName("X");
-  command.footer(
-      "Examples:\n"
-      "  glintmark render snow -o snow.png --view grazing\n"
-      "  glintmark render sand -o sand.exr --star --size 3840x2160\n"
-      "  glintmark render screen_plane -o zoom.png --zoom 20 --size 128x128\n"
-      "  glintmark render car -o car.png --aov planes.exr --set material.paint.log_density=7\n"
-      "  glintmark render disk -o truth.exr --truth 256 && glintmark render disk -o lean.exr \\\n"
-      "    --normal-method lean && glintmark diff lean.exr truth.exr -o error.png\n"
-      "  glintmark render snow -o snow.png --frames 24 --path orbit --step 0.5\n"
-      "  glintmark render snow -o snow.png --trace trace.json    (open it at ui.perfetto.dev)");
+  command.footer(kRenderExamples);
   command.callback([options, star, background, frames, &line] {
     options->star_chosen = star.given();
     options->background_chosen = background.given();

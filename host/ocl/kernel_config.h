@@ -8,7 +8,8 @@
 
 namespace glintmark {
 
-// GlintMethod, NormalMethod, LtcMethod, Multiscatter, BinomialForm, Maths, EdgeIntegral and GeometricAa.
+// GlintMethod, NormalMethod, LtcMethod, Multiscatter, BinomialForm, Maths, EdgeIntegral and
+// GeometricAa.
 #define CHOICES(type) enum class type : int {
 #define CHOICE(enumerator, ...) enumerator,
 #define CHOICES_END \

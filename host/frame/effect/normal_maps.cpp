@@ -86,8 +86,7 @@ NormalTexture uploadMixtures(Device& device, const NormalMap& map, int lobes, bo
 NormalTexture uploadLobes(Device& device, const NormalMap& map, NormalMethod method, int lobes,
                           MixtureOrder order, int iterations) {
   const MixtureOptions options = mixtureOptions(lobes, order, iterations);
-  const NormalMixtures mixtures =
-      cachedNormalMixtures(map, options, DiskCache::fromEnvironment()).mixtures;
+  const NormalMixtures mixtures = fittedMixtures(map, options, DiskCache::fromEnvironment());
   return uploadTexture(device, method == NormalMethod::kVmfLobes
                                    ? sphereLobes(map, mixtures, options.surface)
                                    : covarianceLobes(map, mixtures, options.surface));
