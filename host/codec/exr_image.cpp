@@ -12,7 +12,9 @@
 #include <OpenEXR/ImfTestFile.h>
 
 #include <algorithm>
+#include <array>
 #include <exception>
+#include <stdexcept>
 #include <string_view>
 
 namespace glintmark {
@@ -43,6 +45,19 @@ float valueAt(const Samples& s, int x, int y) {
              mix(sample(column, row + 1), sample(column + 1, row + 1), right), down);
 }
 
+bool isChroma(std::string_view channel) {
+  const std::string_view own = channel.substr(channel.rfind('.') + 1);
+  return own == "RY" || own == "BY";
+}
+
+// Of red, green and blue, by the file's primaries. Throws where these span no colours.
+std::array<float, 3> luminanceOf(const Imf::Header& header) {
+  if (!Imf::hasChromaticities(header)) return StoredPart{}.luminance;
+  const Imath::V3f weights = Imf::RgbaYca::computeYw(Imf::chromaticities(header));
+  if (!(weights.y > 0)) throw std::runtime_error("by its chromaticities green is dark");
+  return {weights.x, weights.y, weights.z};
+}
+
 class SampledExr : public StoredImage {
  public:
   explicit SampledExr(const std::string& path) : file_(path.c_str()) {}
@@ -52,9 +67,7 @@ class SampledExr : public StoredImage {
       const Imf::Header& header = file_.header(number);
       if (isDeep(header)) continue;
       for (auto c = header.channels().begin(); c != header.channels().end(); ++c) {
-        const std::string_view name = c.name();
-        const std::string_view own = name.substr(name.rfind('.') + 1);
-        if (c.channel().xSampling > 1 || c.channel().ySampling > 1 || own == "RY" || own == "BY")
+        if (c.channel().xSampling > 1 || c.channel().ySampling > 1 || isChroma(c.name()))
           return true;
       }
     }
@@ -79,11 +92,12 @@ class SampledExr : public StoredImage {
     part.full_height = display.max.y - display.min.y + 1;
     if (const auto* turned = header.findTypedAttribute<Imf::IntAttribute>("Orientation"))
       part.orientation = turned->value();
-    if (Imf::hasChromaticities(header)) {
-      const Imath::V3f weights = Imf::RgbaYca::computeYw(Imf::chromaticities(header));
-      part.luminance = {weights.x, weights.y, weights.z};
-    }
     part.deep = isDeep(header);
+    try {
+      part.luminance = luminanceOf(header);
+    } catch (const std::exception&) {
+      // read() says so where colours are made of it.
+    }
     return part;
   }
 
@@ -94,6 +108,8 @@ class SampledExr : public StoredImage {
     const Imath::Box2i& window = header.dataWindow();
     const int width = window.max.x - window.min.x + 1, height = window.max.y - window.min.y + 1;
     const std::vector<Samples> channels = readSamples(part, begin, end);
+    if (std::ranges::any_of(channels, [](const Samples& s) { return isChroma(s.name); }))
+      luminanceOf(header);
     std::size_t at = 0;
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < width; ++x)

@@ -150,6 +150,20 @@ TEST_F(ImageFiles, LuminanceIsThatOfTheFilesPrimaries) {
   for (int i = 0; i < 6; ++i) EXPECT_NEAR(image.pixels[i], wanted[i], 1e-5) << i;
 }
 
+// Of primaries that span no colours nothing can be made, and it is said as of any damaged file.
+TEST_F(ImageFiles, PrimariesThatSpanNoColoursAreNamed) {
+  ExrPart own = part("", {"BY", "RY", "Y"}, {{1, 0}, {0.5f, 0}, {2, 0.75f}});
+  const std::vector<std::vector<float>> primaries = {
+      {0, 0, 0, 0, 0, 0, 0, 0},
+      {0.3f, 0.3f, 0.3f, 0.3f, 0.3f, 0.3f, 0.3f, 0.3f},
+      {0.64f, 0.33f, 0, 0, 0.15f, 0.06f, 0.3127f, 0.329f}};
+  for (const std::vector<float>& bad : primaries) {
+    own.chromaticities = bad;
+    const std::filesystem::path file = write("bad.exr", exrBytes({own}));
+    expectIn(messageOf<Error>([&] { readColours(file); }), {"bad.exr", "chromaticities"});
+  }
+}
+
 // Chroma of every second pixel each way, in a window that begins at negative numbers: exact on its
 // samples, halfway between them, and as the last behind it; luminance is exact everywhere.
 TEST_F(ImageFiles, ChromaMayBeStoredForEverySecondPixel) {
