@@ -1,5 +1,6 @@
 #include "host/parallel/ranks.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <string_view>
 #include <thread>
 #include <utility>
@@ -52,6 +54,17 @@ int numberIn(const char* name, int otherwise) {
   return parsed.ec == std::errc() ? value : otherwise;
 }
 
+// Where the launcher says how many there are: Open MPI; launchers by PMI (Slurm, MPICH); Slurm by
+// PMIx.
+std::optional<Launched> countedRanks() {
+  for (const auto& [rank, size] :
+       {std::pair("OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"),
+        std::pair("PMI_RANK", "PMI_SIZE"), std::pair("PMIX_RANK", "SLURM_STEP_NUM_TASKS")})
+    if (const int own = numberIn(rank, -1), count = numberIn(size, 0); own >= 0 && count > 0)
+      return Launched{std::min(own, count - 1), count};
+  return std::nullopt;
+}
+
 }  // namespace
 
 bool Ranks::any(bool mine) const {
@@ -77,11 +90,7 @@ Ranks& allRanks() {
 }
 
 Launched launched() {
-  // Open MPI; launchers by PMI (Slurm, MPICH).
-  for (const auto& [rank, size] : {std::pair("OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"),
-                                   std::pair("PMI_RANK", "PMI_SIZE")})
-    if (const int count = numberIn(size, 0); count > 0)
-      return {std::clamp(numberIn(rank, 0), 0, count - 1), count};
+  if (const std::optional<Launched> counted = countedRanks()) return *counted;
   // By PMIx alone the number of ranks is known to MPI only.
   if (const int rank = numberIn("PMIX_RANK", -1); rank >= 0) return {rank, std::max(2, rank + 1)};
   return {};
@@ -102,6 +111,16 @@ void joinRanks() {
   joined.reset(join([] {
     if (waiting_call) waiting_call();
   }));
+  // Ranks of another MPI's launcher are strangers to each other, and each would do all of the work.
+  const std::optional<Launched> counted = countedRanks();
+  const int found = joined->size();
+  if (!counted || counted->size <= found) return;
+  leaveRanks(kExitBadInput);
+  joined.reset();
+  throw Error(fmt::format(
+      "the launcher has started {} ranks, but {} of them can share work: it is of another MPI than "
+      "glintmark_mpi.so; start them with Open MPI's mpirun",
+      counted->size, found));
 }
 
 void whileWaiting(std::function<void()> call) {

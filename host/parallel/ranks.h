@@ -69,7 +69,7 @@ struct Launched {
 Launched launched();
 
 /// Joins the ranks that the launcher started with this one; does nothing without a launcher. Throws
-/// Error if there are several and the program was built without MPI.
+/// Error if there are several and the program was built without MPI, or they cannot all be joined.
 void joinRanks();
 
 /// Called now and then while a rank waits for others; what it throws ends the wait, and nothing can

@@ -193,6 +193,12 @@ TEST_F(Ranks, WhatIsWrongEverywhereIsSaidOnce) {
   EXPECT_EQ(countOf(help.out, "--checkpoint"), 2u) << help.out;  // its option, and an example
 }
 
+// Each of them would believe that it is alone.
+TEST_F(Ranks, ThoseOfAnotherLauncherAreRefused) {
+  expectSentence(runGlintmark({"simulate"}, {"PMI_RANK=0", "PMI_SIZE=4"}), 2,
+                 {"started 4 ranks, but 1 of them", "Open MPI's mpirun"});
+}
+
 TEST_F(Ranks, WhatIsTimedHasADeviceOfItsOwn) {
   const ProcessResult refused =
       runByRanks(2, {"bench", "zk16", "-o", folder_ / "r", "--size", "32x18"});
