@@ -271,6 +271,7 @@ int runRender(const CommandLine& line, const RenderOptions& options) {
   const CommonOptions& common = line.common;
   checkRenderOptions(options);
   const ImageSize size = parseSize(options.size);
+  if (!options.aov_output.empty()) requireMemoryForPlanes(size.width_px, size.height_px);
   ShadingOptions shading{
       .width_px = size.width_px,
       .height_px = size.height_px,

@@ -1,9 +1,13 @@
 #include "host/report/picture/aov.h"
 
+#include <fmt/format.h>
+
+#include <cstdint>
 #include <functional>
 
 #include "host/core/error.h"
 #include "host/core/frame_packing.h"
+#include "host/core/free_memory.h"
 
 namespace glintmark {
 namespace {
@@ -115,6 +119,13 @@ Image planesToImage(const PixelPlanes& planes) {
     }
   }
   return image;
+}
+
+void requireMemoryForPlanes(int width_px, int height_px) {
+  // An image has up to one and a half times as many channels as there are planes.
+  constexpr std::uint64_t kWords = kPlaneCount * 4;
+  requireMemory(static_cast<std::uint64_t>(width_px) * height_px * kWords * sizeof(float),
+                fmt::format("an image of all planes of {}x{} pixels", width_px, height_px));
 }
 
 }  // namespace glintmark

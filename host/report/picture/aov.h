@@ -12,4 +12,8 @@ namespace glintmark {
 /// "material".
 Image planesToImage(const PixelPlanes& planes);
 
+/// Throws Error if there is no memory for all planes of so many pixels and for their image, with a
+/// matte, which is copied as that joins it.
+void requireMemoryForPlanes(int width_px, int height_px);
+
 }  // namespace glintmark
