@@ -405,7 +405,7 @@ class MixtureFit {
   const FittedNormals normals_;
   NormalMixtures result_;
   int level_count_ = 0;
-  double done_ = 0;  // sweeps over levels
+  double done_ = 0;                      // sweeps over levels
   Sharing sharing_ = Sharing::kNothing;  // of the batch in hand
   tbb::enumerable_thread_specific<Scratch> scratch_;
 };
