@@ -78,17 +78,31 @@ LaunchTimes launchOnce(Kernel::Impl& impl, std::size_t first, std::size_t global
   return times;
 }
 
+// With smaller groups where the driver refuses `group`, a divisor of `local_size`; it keeps what
+// was taken.
+LaunchTimes launchInGroups(Kernel::Impl& impl, std::size_t first, std::size_t global_size,
+                           std::size_t local_size, std::size_t& group) {
+  for (;; group = fittingLocalSize(local_size, group / 2)) {
+    try {
+      return launchOnce(impl, first, global_size, group);
+    } catch (const cl::Error& error) {
+      if (group == 1 || !mayBeTooLargeAGroup(error.err())) throw;
+    }
+  }
+}
+
 // In halves where the driver refuses the whole: kernels know of their range by get_global_id alone.
+// No part of it is launched twice, since kernels add to what is there.
 LaunchTimes launchRange(Kernel::Impl& impl, std::size_t first, std::size_t global_size,
-                        std::size_t local_size) {
+                        std::size_t local_size, std::size_t& group) {
   try {
-    return launchOnce(impl, first, global_size, local_size);
+    return launchInGroups(impl, first, global_size, local_size, group);
   } catch (const cl::Error& error) {
     if (global_size <= local_size || !isTooLargeARange(error.err())) throw;
   }
   const std::size_t half = (global_size / local_size + 1) / 2 * local_size;
-  LaunchTimes times = launchRange(impl, first, half, local_size);
-  const LaunchTimes rest = launchRange(impl, first + half, global_size - half, local_size);
+  LaunchTimes times = launchRange(impl, first, half, local_size, group);
+  const LaunchTimes rest = launchRange(impl, first + half, global_size - half, local_size, group);
   times.event_ns += rest.event_ns;
   times.wall_ns += rest.wall_ns;
   times.first_enqueue = times.first_enqueue || rest.first_enqueue;
@@ -108,14 +122,7 @@ LaunchTimes Kernel::launch(std::span<const KernelArg> args, std::size_t global_s
   std::size_t group = fittingLocalSize(local_size, impl_->max_local_size);
   try {
     setArgs(*impl_, args);
-    for (;; group = fittingLocalSize(local_size, group / 2)) {
-      try {
-        times = launchRange(*impl_, 0, items, group);
-        break;
-      } catch (const cl::Error& error) {
-        if (group == 1 || !mayBeTooLargeAGroup(error.err())) throw;
-      }
-    }
+    times = launchRange(*impl_, 0, items, local_size, group);
   } catch (const cl::Error& error) {
     throw openClError(
         fmt::format("kernel '{}' (global size {}, local size {})", impl_->name, items, group),

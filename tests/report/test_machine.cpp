@@ -1,4 +1,5 @@
 // What a process may use of a machine, from files as control groups of both versions write them.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sched.h>
 
@@ -103,6 +104,17 @@ TEST_F(Machine, OthersAreCountedAndThisProcessIsNot) {
   EXPECT_EQ(watch.othersCores(), 0);
   put("proc/stat", "cpu 100000000 0 0 0 0 0 0 0 0 0\n");
   EXPECT_GT(watch.othersCores(), 100);
+  // A processor that this process may not use is not in its way.
+  cpu_set_t allowed;
+  CPU_ZERO(&allowed);
+  ASSERT_EQ(sched_getaffinity(0, sizeof allowed, &allowed), 0);
+  int ours = 0, another = 0;
+  while (!CPU_ISSET(ours, &allowed)) ++ours;
+  while (CPU_ISSET(another, &allowed)) ++another;
+  put("proc/stat", fmt::format("cpu 100000000 0 0 0 0 0 0 0 0 0\ncpu{} 0 0 0 0 0 0 0 0 0 0\n"
+                               "cpu{} 100000000 0 0 0 0 0 0 0 0 0\n",
+                               ours, another));
+  EXPECT_EQ(watch.othersCores(), 0);
 }
 
 TEST(Busy, IsSaidOfPeaksThatMovedAndOfOthers) {

@@ -107,7 +107,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadValue{"f0 = [1.0, 2.0, 0.0]", "expected a number in [0, 1]"},
         BadValue{"albedo = [0.1, 0.2]", "expected 3 numbers or one"},
         BadValue{"type = \"glitter\"", "expected glints, grooves or smooth"},
-        BadValue{"diffuse_model = \"oren\"", "expected lambert, published, refit or eon"},
+        BadValue{"diffuse_model = \"oren\"", "expected lambert, published, refit, eon or fitted"},
         BadValue{"diffuse_masking = 0.5", "needs diffuse_model published or refit"},
         BadValue{"diffuse_masking = 2", "expected a number in [0, 1]"},
         BadValue{"compensation = \"full\"", "is 'full', expected off, lobe or simulated"},

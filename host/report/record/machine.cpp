@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <utility>
@@ -57,13 +58,33 @@ double ownSeconds() {
   return total;
 }
 
-// Time that processors were neither idle nor waiting for disks, stolen time included.
+// Those that this process may run on; false if nobody says.
+bool allowedCpus(cpu_set_t& set) {
+  CPU_ZERO(&set);
+  // Machines with more processors than a set holds have them all.
+  return sched_getaffinity(0, sizeof set, &set) == 0;
+}
+
+// Time that processors which this process may run on were neither idle nor waiting for disks,
+// stolen time included.
 double allSeconds(const fs::path& root) {
+  cpu_set_t allowed;
+  const bool chosen = allowedCpus(allowed);
   std::ifstream stream(root / "proc/stat");
-  std::string cpu;
-  double user = 0, nice = 0, system = 0, idle = 0, wait = 0, irq = 0, soft = 0, steal = 0;
-  stream >> cpu >> user >> nice >> system >> idle >> wait >> irq >> soft >> steal;
-  return (user + nice + system + irq + soft + steal) / static_cast<double>(sysconf(_SC_CLK_TCK));
+  double all = 0, ours = 0;
+  bool found = false;  // lines of single processors
+  for (std::string line; std::getline(stream, line) && line.starts_with("cpu");) {
+    std::istringstream words(line);
+    std::string cpu;
+    double user = 0, nice = 0, system = 0, idle = 0, wait = 0, irq = 0, soft = 0, steal = 0;
+    words >> cpu >> user >> nice >> system >> idle >> wait >> irq >> soft >> steal;
+    const double busy = user + nice + system + irq + soft + steal;
+    if (cpu == "cpu")
+      all = busy;
+    else if (chosen && CPU_ISSET(std::strtoul(cpu.c_str() + 3, nullptr, 10), &allowed))
+      ours += busy, found = true;
+  }
+  return (found ? ours : all) / static_cast<double>(sysconf(_SC_CLK_TCK));
 }
 
 double throttled(const fs::path& root) {
@@ -78,11 +99,7 @@ double throttled(const fs::path& root) {
 
 int usableCores(const fs::path& root) {
   cpu_set_t set;
-  CPU_ZERO(&set);
-  // Machines with more processors than a set holds have them all.
-  const double allowed = sched_getaffinity(0, sizeof set, &set) == 0
-                             ? CPU_COUNT(&set)
-                             : std::thread::hardware_concurrency();
+  const double allowed = allowedCpus(set) ? CPU_COUNT(&set) : std::thread::hardware_concurrency();
   return static_cast<int>(std::max(1.0, std::min(allowed, std::ceil(leastQuota(root)))));
 }
 
