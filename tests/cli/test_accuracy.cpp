@@ -55,12 +55,12 @@ TEST(Accuracy, ModelsAndSimulations) {
     EXPECT_EQ(record.config.at("rays"), "100000");
   }
   for (const char* name : {"msbrdf/model=lambert", "msbrdf/model=published", "msbrdf/model=refit",
-                           "msbrdf/model=eon", "msbrdf/rays=1e5"}) {
+                           "msbrdf/model=eon", "msbrdf/model=fitted", "msbrdf/rays=1e5"}) {
     for (const char* metric : {"error", "truth_stderr", "time_ratio", "time_ms", "pareto", "bias",
                                "rel_mse", "colour_error"})
       EXPECT_TRUE(metrics[name].contains(metric)) << name << " " << metric;
   }
-  EXPECT_EQ(metrics.size(), 5u);
+  EXPECT_EQ(metrics.size(), 6u);
   EXPECT_GE(optimal, 1);
   // Lambert knows nothing of roughness: even so few rays tell that it is worse.
   EXPECT_GT(errors["msbrdf/model=lambert"], errors["msbrdf/model=eon"]);
@@ -78,7 +78,7 @@ TEST(Accuracy, ModelsAndSimulations) {
   const std::string chart = readFile(folder / "r/accuracy_msbrdf.svg");
   EXPECT_TRUE(chart.starts_with("<svg ")) << chart.substr(0, 80);
   EXPECT_TRUE(chart.ends_with("</svg>\n"));
-  EXPECT_EQ(countOf(chart, "<circle "), 5u + 3u) << chart;
+  EXPECT_EQ(countOf(chart, "<circle "), 6u + 3u) << chart;
   for (const char* name : {">msbrdf<", ">default<", ">sampled rival<"})
     EXPECT_EQ(countOf(chart, name), 1u) << name << " in " << chart;
   EXPECT_EQ(readImage(folder / "r/accuracy_msbrdf.png").width, 662);
@@ -103,7 +103,7 @@ TEST(Accuracy, FramesAgainstASupersampledTruth) {
   ASSERT_EQ(result.exit_code, 0) << result.err << result.out;
   auto errors = figuresOf(folder, "error"), ratios = figuresOf(folder, "time_ratio"),
        truth = figuresOf(folder, "truth_stderr");
-  EXPECT_EQ(errors.size(), 16u);
+  EXPECT_EQ(errors.size(), 19u);
   // The default is one measurement under every knob.
   for (const char* name : {"gmm/lobes=4", "gmm/texels=float"}) {
     EXPECT_EQ(ratios[name], 1) << name;
@@ -223,8 +223,9 @@ TEST(Accuracy, UnknownNamesListTheKnownOnes) {
   const TempFolder folder;
   const ProcessResult effect = runGlintmark(accuracyArguments(folder, "snow", {}));
   EXPECT_EQ(effect.exit_code, 2);
-  EXPECT_NE(effect.err.find("unknown effect 'snow'; effects are glints, ltc, gmm, msbrdf"),
-            std::string::npos)
+  EXPECT_NE(
+      effect.err.find("unknown effect 'snow'; effects are glints, ltc, gmm, curvature, msbrdf"),
+      std::string::npos)
       << effect.err;
   const ProcessResult scene = runGlintmark(accuracyArguments(folder, "gmm", {"--scene", "snow"}));
   EXPECT_EQ(scene.exit_code, 2);
