@@ -48,7 +48,7 @@ class Written(unittest.TestCase):
         self.assertEqual(len(many["others"]), len(runs) - 1)
 
     def test_difference(self):
-        picture = str(SOURCE / "docs/glitter.png")
+        picture = str(SOURCE / "docs/hero.png")
         self.run_program("diff", picture, picture)
 
     def test_verification(self):
