@@ -141,11 +141,10 @@ Fitted fitByRanks(const FitGmmCommand& command, NormalMap map,
   const DiskCache cache = DiskCache::fromEnvironment();
   const std::string key = mixtureKey(map, command.options);
   std::optional<NormalMixtures> known;
-  if (ranks.isFirst() && !command.refit)
-    if (const auto bytes = cache.load(key, key)) known = mixturesFromBytes(*bytes);
+  if (ranks.isFirst() && !command.refit) known = loadMixtures(cache, key);
   const bool fits = !ranks.any(known.has_value());
   if (fits) known = fitMixturesShared(ranks, map, command.options, show);
-  if (fits && !command.refit && ranks.isFirst()) cache.store(key, key, mixtureBytes(*known));
+  if (fits && !command.refit && ranks.isFirst()) storeMixtures(cache, key, *known);
   return {std::move(map), known ? std::move(*known) : NormalMixtures(), fits};
 }
 

@@ -97,18 +97,25 @@ std::optional<NormalMixtures> mixturesFromBytes(std::string_view bytes) {
   return result;
 }
 
+std::optional<NormalMixtures> loadMixtures(const DiskCache& cache, const std::string& key) {
+  const auto bytes = cache.load(key, key);
+  return bytes ? mixturesFromBytes(*bytes) : std::nullopt;
+}
+
+// In pieces, since a copy of a large map's would not fit the memory.
+void storeMixtures(const DiskCache& cache, const std::string& key, const NormalMixtures& mixtures) {
+  cache.store(key, key, headBytes(mixtures), texelBytes(mixtures));
+}
+
 CachedMixtures cachedNormalMixtures(const NormalMap& map, const MixtureOptions& options,
                                     const DiskCache& cache,
                                     const std::function<void(double)>& progress) {
   checkNormalMap(map);
   const std::string key = mixtureKey(map, options);
   // Entries of other keys stay: scenes have several maps and fits.
-  if (const auto bytes = cache.load(key, key)) {
-    if (auto mixtures = mixturesFromBytes(*bytes)) return {std::move(*mixtures), true};
-  }
+  if (auto mixtures = loadMixtures(cache, key)) return {std::move(*mixtures), true};
   NormalMixtures mixtures = fitNormalMixtures(map, options, progress);
-  // In pieces, since a copy of a large map's would not fit the memory.
-  cache.store(key, key, headBytes(mixtures), texelBytes(mixtures));
+  storeMixtures(cache, key, mixtures);
   return {std::move(mixtures), false};
 }
 

@@ -22,6 +22,10 @@ std::string mixtureBytes(const NormalMixtures& mixtures);
 /// Inverse of mixtureBytes; nothing if the bytes are of another version or not whole.
 std::optional<NormalMixtures> mixturesFromBytes(std::string_view bytes);
 
+/// What `cache` has under a key of mixtureKey; nothing if it has none, or not whole.
+std::optional<NormalMixtures> loadMixtures(const DiskCache& cache, const std::string& key);
+void storeMixtures(const DiskCache& cache, const std::string& key, const NormalMixtures& mixtures);
+
 struct CachedMixtures {
   NormalMixtures mixtures;
   bool from_cache = false;  // fit_ms and the levels' report are then those of the first fit
