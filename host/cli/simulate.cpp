@@ -9,7 +9,6 @@
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
 #include "host/core/progress.h"
-#include "host/core/stopwatch.h"
 #include "host/experiment/interrupt.h"
 #include "host/experiment/msbrdf/lobe_picture.h"
 #include "host/parallel/ranks.h"
@@ -66,12 +65,6 @@ SimulationSettings makeSettings(const SimulateOptions& options) {
   return settings;
 }
 
-// How the casting went.
-struct Cast {
-  double wall_s = 0;
-  double waiting = 0;  // share of it that ranks waited for each other, their mean
-};
-
 std::string keptText(const Simulation& kept, const SimulateOptions& options) {
   if (options.checkpoint.empty()) return "nothing is kept without --checkpoint FILE";
   return fmt::format("{} of {} rays are kept in {}, --resume carries on", kept.rays_done,
@@ -79,12 +72,11 @@ std::string keptText(const Simulation& kept, const SimulateOptions& options) {
 }
 
 // Casts what is missing by all ranks, with checkpoints now and then and after Ctrl-C.
-Cast castRays(SharedSimulation& shared, const SimulateOptions& options, bool quiet) {
+SharedTime::Spent castRays(SharedSimulation& shared, const SimulateOptions& options, bool quiet) {
   const Ranks& ranks = allRanks();
   const InterruptGuard guard;
   Progress progress(quiet);
   ranks.any(false);  // all have compiled
-  const double before_ns = ranks.waitedNs();
   const auto save = [&] {
     shared.collect();
     if (ranks.isFirst() && !options.checkpoint.empty())
@@ -92,17 +84,17 @@ Cast castRays(SharedSimulation& shared, const SimulateOptions& options, bool qui
   };
   const std::uint64_t total = shared.collected().settings.rays;
   double saved_ns = 0;
-  const Stopwatch watch;
+  const SharedTime time(ranks);
   try {
     while (!shared.isDone()) {
       // By the first rank's clock, since all have to bring their counts together.
-      const bool due = watch.elapsedNs() - saved_ns > kSaveEvery_ns || InterruptGuard::endIsNear();
+      const bool due = time.elapsedNs() - saved_ns > kSaveEvery_ns || InterruptGuard::endIsNear();
       const auto [stop, collect] =
           shared.advance({InterruptGuard::interrupted(), due && ranks.isFirst()});
       progress.show(static_cast<int>(100 * shared.cast() / total), 100, "per cent of the rays");
       if (shared.isDone() || !(stop || collect)) continue;
       save();
-      saved_ns = watch.elapsedNs();
+      saved_ns = time.elapsedNs();
       if (stop) throw Interrupted("interrupted; " + keptText(shared.collected(), options));
     }
     save();
@@ -111,10 +103,7 @@ Cast castRays(SharedSimulation& shared, const SimulateOptions& options, bool qui
     throw Interrupted("interrupted, and a rank did not answer; " +
                       keptText(shared.collected(), options));
   }
-  const double wall_ns = watch.elapsedNs();
-  std::uint64_t waited_ns = static_cast<std::uint64_t>(ranks.waitedNs() - before_ns);
-  ranks.sum({&waited_ns, 1});
-  return {wall_ns * 1e-9, static_cast<double>(waited_ns) / (wall_ns * ranks.size())};
+  return time.spent();
 }
 
 // Where the energy went. A diffuse microfacet of albedo a keeps a of what meets it, so an order's
@@ -190,8 +179,8 @@ Simulation simulationToCarryOn(const SimulationSettings& settings, const Simulat
   return simulation;
 }
 
-std::string castText(const Simulator& simulator, const SharedSimulation& shared, const Cast& cast,
-                     std::uint64_t rays) {
+std::string castText(const Simulator& simulator, const SharedSimulation& shared,
+                     const SharedTime::Spent& cast, std::uint64_t rays) {
   const Ranks& ranks = allRanks();
   const SimulationSettings& settings = shared.collected().settings;
   std::string slopes;
@@ -228,7 +217,7 @@ int runSimulate(const CommandLine& line, const SimulateOptions& options) {
   ProgramCache cache(device);
   Simulator simulator(device, cache, chosenLanes(line.common, device));
   SharedSimulation shared(allRanks(), simulator, begun);
-  const Cast cast = castRays(shared, options, line.common.quiet);
+  const SharedTime::Spent cast = castRays(shared, options, line.common.quiet);
   std::string how;
   if (shared.cast() > begun.rays_done)
     how = castText(simulator, shared, cast, shared.cast() - begun.rays_done);

@@ -12,7 +12,6 @@
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
 #include "host/core/progress.h"
-#include "host/core/stopwatch.h"
 #include "host/core/trace.h"
 #include "host/experiment/interrupt.h"
 #include "host/experiment/run_inputs.h"
@@ -257,16 +256,12 @@ void BenchRun::measureMine(Cases& cases) {
 // Of all ranks; the first says how well they shared it.
 void BenchRun::prepareShared(const std::function<void()>& prepare) const {
   const Ranks& ranks = allRanks();
-  const double waited_ns = ranks.waitedNs();
-  const Stopwatch watch;
+  const SharedTime time(ranks);
   prepare();
-  std::uint64_t waited_sum_ns = static_cast<std::uint64_t>(ranks.waitedNs() - waited_ns);
-  ranks.sum({&waited_sum_ns, 1});
-  const double wall_ns = watch.elapsedNs();
+  const SharedTime::Spent spent = time.spent();
   if (session_.common.quiet) return;
   fmt::print(stderr, "note: what cases share took {} ranks {:.2f} s, {:.1f} % of it waiting\n",
-             ranks.size(), wall_ns * 1e-9,
-             100 * static_cast<double>(waited_sum_ns) / (wall_ns * ranks.size()));
+             ranks.size(), spent.wall_s, 100 * spent.waiting);
 }
 
 void BenchRun::measureCases(const std::string& table, const std::vector<std::string>& cases,

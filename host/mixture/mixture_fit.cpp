@@ -194,22 +194,13 @@ class MixtureFit {
 
   // Of all ranks: mixtures of the batch's texels, each block from the rank that has fitted it.
   void shareStates(int level, const TexelBatch& batch, int size) {
-    const std::size_t bytes = static_cast<std::size_t>(options_.lobes) * sizeof(float4);
-    const auto maker = [&](int i) { return static_cast<std::size_t>(i / size % ranks_.size()); };
-    const auto own = static_cast<std::size_t>(ranks_.rank());
-    std::string mine;
-    mine.reserve(static_cast<std::size_t>(batch.count) * bytes);
-    for (int i = 0; i < batch.count; ++i)
-      if (maker(i) == own)
-        mine.append(reinterpret_cast<const char*>(state(level, batch.at(i))), bytes);
-    const std::vector<std::string> all = ranks_.gather(mine);
-    std::vector<std::size_t> taken(all.size(), 0);
-    for (int i = 0; i < batch.count; ++i) {
-      const std::size_t from = maker(i);
-      if (from == own) continue;
-      all[from].copy(reinterpret_cast<char*>(state(level, batch.at(i))), bytes, taken[from]);
-      taken[from] += bytes;
-    }
+    shareParts(
+        ranks_, static_cast<std::size_t>(batch.count),
+        [&](std::size_t i) { return i / static_cast<std::size_t>(size); },
+        [&](std::size_t i) {
+          return std::span(reinterpret_cast<char*>(state(level, batch.at(static_cast<int>(i)))),
+                           static_cast<std::size_t>(options_.lobes) * sizeof(float4));
+        });
   }
 
   // E-step of the block's texels.

@@ -67,6 +67,13 @@ std::optional<Launched> countedRanks() {
 
 }  // namespace
 
+SharedTime::Spent SharedTime::spent() const {
+  const double wall_ns = elapsedNs();
+  std::uint64_t waited_ns = static_cast<std::uint64_t>(ranks_.waitedNs() - before_ns_);
+  ranks_.sum({&waited_ns, 1});
+  return {wall_ns * 1e-9, static_cast<double>(waited_ns) / (wall_ns * ranks_.size())};
+}
+
 bool Ranks::any(bool mine) const {
   std::uint64_t count = mine ? 1 : 0;
   sum({&count, 1});

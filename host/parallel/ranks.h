@@ -8,6 +8,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "host/core/stopwatch.h"
+
 namespace glintmark {
 
 /// A message of one rank to the first.
@@ -100,23 +102,53 @@ class RankDeal {
   std::vector<double> load_;
 };
 
-/// Of all of `ranks`: rows of `row` values, of which each rank has made those that makes() says;
-/// afterwards each has all. T is trivially copyable.
+/// How well ranks shared what began with this: made by all, asked by all.
+class SharedTime {
+ public:
+  explicit SharedTime(const Ranks& ranks) : ranks_(ranks), before_ns_(ranks.waitedNs()) {}
+
+  double elapsedNs() const { return watch_.elapsedNs(); }
+  struct Spent {
+    double wall_s = 0;
+    double waiting = 0;  // share of it that ranks waited for each other, their mean
+  };
+  /// Of all.
+  Spent spent() const;
+
+ private:
+  const Ranks& ranks_;
+  double before_ns_;
+  Stopwatch watch_;
+};
+
+/// Of all of `ranks`: `count` parts, of which each rank has made those whose unit(i) makes() says;
+/// afterwards each has all. bytes(i) is a part's memory, as long at each rank, std::span<char>.
+template <typename Unit, typename Bytes>
+void shareParts(const Ranks& ranks, std::size_t count, const Unit& unit, const Bytes& bytes) {
+  if (ranks.size() == 1) return;
+  std::string mine;
+  for (std::size_t i = 0; i < count; ++i)
+    if (const std::span<char> part = bytes(i); ranks.makes(unit(i)))
+      mine.append(part.data(), part.size());
+  const std::vector<std::string> all = ranks.gather(mine);
+  std::vector<std::size_t> taken(all.size(), 0);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t maker = unit(i) % all.size();
+    const std::span<char> part = bytes(i);
+    all[maker].copy(part.data(), part.size(), taken[maker]);
+    taken[maker] += part.size();
+  }
+}
+
+/// The same of rows of `row` values, a unit each. T is trivially copyable.
 template <typename T>
 void shareRows(const Ranks& ranks, std::span<T> values, std::size_t row) {
   static_assert(std::is_trivially_copyable_v<T>);
-  if (ranks.size() == 1) return;
-  const std::size_t rows = row > 0 ? values.size() / row : 0, row_bytes = row * sizeof(T);
-  std::string mine;
-  for (std::size_t i = 0; i < rows; ++i)
-    if (ranks.makes(i)) mine.append(reinterpret_cast<const char*>(&values[i * row]), row_bytes);
-  const std::vector<std::string> all = ranks.gather(mine);
-  std::vector<std::size_t> taken(all.size(), 0);
-  for (std::size_t i = 0; i < rows; ++i) {
-    const std::size_t maker = i % all.size();
-    all[maker].copy(reinterpret_cast<char*>(&values[i * row]), row_bytes, taken[maker]);
-    taken[maker] += row_bytes;
-  }
+  shareParts(
+      ranks, row > 0 ? values.size() / row : 0, [](std::size_t i) { return i; },
+      [&](std::size_t i) {
+        return std::span(reinterpret_cast<char*>(&values[i * row]), row * sizeof(T));
+      });
 }
 
 }  // namespace glintmark
