@@ -18,6 +18,7 @@
 #include "host/mixture/mixture_fit_types.h"
 #include "host/mixture/mixture_level.h"
 #include "host/mixture/mixture_order.h"
+#include "host/mixture/mixture_sharing.h"
 #include "host/mixture/mixture_start.h"
 #include "host/mixture/normal_mixture.h"
 #include "host/mixture/shared_mixture_fit.h"
@@ -31,10 +32,6 @@ constexpr std::size_t kTaskNormals = 16384;
 constexpr int kGrain = 8;
 // Normals between two calls of the progress, about half a second of one processor.
 constexpr double kNormalsPerCall = 1 << 22;
-// What is shared among ranks takes each of them milliseconds, since telling the others takes half
-// of one: so many blocks of a batch, or so many normals; of long rows a few blocks.
-constexpr int kLeastSharedBlocks = 256, kLeastLongBlocks = 4;
-constexpr double kLeastSharedNormals = 1 << 22;
 
 // Sums over the texels of a level.
 struct Tally {
@@ -147,11 +144,11 @@ class MixtureFit {
       return BlockTexels{batch, b * size, std::min(size, batch.count - b * size)};
     };
     std::vector<Tally> made;  // where ranks have a part in it
-    sharing_ = sharingOf(geometry, blocks);
-    if (sharing_ == Sharing::kNormals) {
+    sharing_ = mixtureSharing(ranks_, geometry, blocks);
+    if (sharing_ == MixtureSharing::kNormals) {
       // One after the other: every rank takes part in each.
       for (int b = 0; b < blocks; ++b) made.push_back(run(texels(b)));
-    } else if (sharing_ == Sharing::kBlocks) {
+    } else if (sharing_ == MixtureSharing::kBlocks) {
       made.resize(static_cast<std::size_t>(blocks));
       tbb::parallel_for(0, blocks, [&](int b) {
         if (ranks_.makes(static_cast<std::size_t>(b)))
@@ -179,19 +176,6 @@ class MixtureFit {
     return sum;
   }
 
-  // What of a batch ranks share: where it is little, every rank does all of it.
-  enum class Sharing { kNothing, kBlocks, kNormals };
-  Sharing sharingOf(const MixtureLevel& geometry, int blocks) const {
-    const int size = ranks_.size();
-    if (size == 1) return Sharing::kNothing;
-    if (!geometry.hasLongRows())
-      return blocks >= kLeastSharedBlocks * size ? Sharing::kBlocks : Sharing::kNothing;
-    const double normals = geometry.normalsPerTexel();
-    if (blocks >= kLeastLongBlocks * size && normals * blocks >= kLeastSharedNormals)
-      return Sharing::kBlocks;
-    return normals >= kLeastSharedNormals ? Sharing::kNormals : Sharing::kNothing;
-  }
-
   // Of all ranks: mixtures of the batch's texels, each block from the rank that has fitted it.
   void shareStates(int level, const TexelBatch& batch, int size) {
     shareParts(
@@ -211,7 +195,7 @@ class MixtureFit {
       return;
     }
     expectLongRows(geometry.rows(texels.at(0)),
-                   sharing_ == Sharing::kNormals ? ranks_ : aloneRanks(), likelihood, block);
+                   sharing_ == MixtureSharing::kNormals ? ranks_ : aloneRanks(), likelihood, block);
   }
 
   // Of all `ranks`.
@@ -396,28 +380,12 @@ class MixtureFit {
   const FittedNormals normals_;
   NormalMixtures result_;
   int level_count_ = 0;
-  double done_ = 0;                      // sweeps over levels
-  Sharing sharing_ = Sharing::kNothing;  // of the batch in hand
+  double done_ = 0;                                    // sweeps over levels
+  MixtureSharing sharing_ = MixtureSharing::kNothing;  // of the batch in hand
   tbb::enumerable_thread_specific<Scratch> scratch_;
 };
 
 }  // namespace
-
-void checkMixtureOptions(const MixtureOptions& options) {
-  const auto require = [](bool good, const char* sentence) {
-    if (!good) throw Error(sentence);
-  };
-  if (options.lobes < 1 || options.lobes > kMaxLobes) {
-    throw Error(
-        fmt::format("a mixture cannot have {} lobes; it has 1 to {}", options.lobes, kMaxLobes));
-  }
-  require(options.passes >= 1, "a fit of mixtures needs at least 1 pass");
-  require(options.sweeps >= 1, "a fit of mixtures needs at least 1 sweep");
-  require(options.max_iterations >= 1, "a fit of mixtures needs at least 1 iteration");
-  require(options.tolerance > 0, "the tolerance of a fit of mixtures must be above 0");
-  require(options.prior_weight >= 0, "the prior weight of a fit of mixtures must be 0 or more");
-  require(options.threads >= 0, "the number of threads must be 0 (all cores) or more");
-}
 
 NormalMixtures fitNormalMixtures(const NormalMap& map, const MixtureOptions& options,
                                  const std::function<void(double)>& progress) {
