@@ -20,6 +20,6 @@ kernel void probeCone(global const float* in, global float* out, uint count,
   storeFloat(lobe.schlick, out, count + i);
   storeFloat(lobe.cosine, out, 2 * count + i);
   storeFloat(lobe.probability, out, 3 * count + i);
-  storeFloat(halfVectorSide(material->glints.alpha_l.x, (ConeSlope)(light->direction.w)), out,
-             4 * count + i);
+  const vfloat cells = halfVectorCells(material->glints.alpha_l.x, (ConeSlope)(light->direction.w));
+  storeFloat(1.0f / cells, out, 4 * count + i);
 }
