@@ -69,8 +69,11 @@ void visitGridZk16(const GridFootprint& grid, int ka, GridVisit& visit) {
 
 std::vector<GridVisit> visitZk16(const PixelFootprint& footprint, const GridRules& rules, int ka) {
   std::vector<GridVisit> grids = gridsFor(cellSizeZk16(footprint, ka), rules.finest_level);
-  for (GridVisit& visit : grids)
+  for (GridVisit& visit : grids) {
+    const bool is_coarse = &visit != &grids.front();
+    if (is_coarse && visit.mip_weight <= 0) continue;  // below the finest level
     visitGridZk16(inGrid(footprint, rules.stretch, visit.level), ka, visit);
+  }
   return grids;
 }
 

@@ -65,7 +65,7 @@ GridFootprint inGrid(const PixelFootprint& footprint, const glm::dvec2& stretch,
 /// yet.
 std::vector<GridVisit> gridsFor(double cell_size, int finest_level);
 
-/// Cells of both grids by method zk16.
+/// Cells of both grids by method zk16; none of the coarser one where that weighs nothing.
 std::vector<GridVisit> visitZk16(const PixelFootprint& footprint, const GridRules& rules, int ka);
 /// Cells of both grids by method exact; weights are areas in cells.
 std::vector<GridVisit> visitExact(const PixelFootprint& footprint, const GridRules& rules);

@@ -22,37 +22,64 @@ HandMadeFrame seenFromAbove(const DrawCase& c, int pixels) {
   return frame;
 }
 
-// [ZK16] Sect. 5: from 8 to 64 cells at K_a = 16. Footprints up to beyond the limit, of any size.
+reference::GridRules rulesOf(const DrawCase& c) {
+  return reference::gridRules({c.alpha_g.x, c.alpha_g.y}, {c.alpha_l.x, c.alpha_l.y}, c.density);
+}
+
+// A footprint as the planes hold it: derivatives are floats.
+reference::PixelFootprint asStored(reference::PixelFootprint footprint) {
+  for (glm::dvec2* d : {&footprint.duv_dx, &footprint.duv_dy}) *d = glm::dvec2(glm::vec2(*d));
+  return footprint;
+}
+
+// [ZK16] Sect. 5: from 8 to 64 cells at K_a = 16, half of them in either grid. Footprints up to
+// beyond the limit, of any size; those of which cells of the finest grid are wider than the pixel
+// know that grid alone.
 Finding cellRange(const CheckContext& context) {
   const DrawCase c = {"", GlintMethod::kZk16, {.3f, .3f}, {.05f, .05f}, 1e6f, 0, false,
                       16, {1e-5, 1, 200}};
   const HandMadeFrame frame = seenFromAbove(c, 20000);
   const ShadedPixels shaded = drawPixels(context, c, frame);
+  const double finest = std::exp2(rulesOf(c).finest_level);
   Finding finding(0);
   double outside = 0;
-  for (const std::uint32_t cells : shaded.cells)
-    outside += cells < 8 || cells > 64 || cells % 2 != 0;
+  std::uint32_t least_of_two = 64, most_of_one = 0;
+  for (std::size_t i = 0; i < shaded.cells.size(); ++i) {
+    const std::uint32_t cells = shaded.cells[i];
+    const bool alone = reference::cellSizeZk16(asStored(frame.pixels[i].footprint), c.ka) < finest;
+    outside += alone ? cells < 4 || cells > 32 || cells % 2 != 0
+                     : cells < 8 || cells > 64 || cells % 2 != 0;
+    if (alone) most_of_one = std::max(most_of_one, cells);
+    if (!alone) least_of_two = std::min(least_of_two, cells);
+  }
   finding.add(outside);
   const auto [least, most] = std::ranges::minmax(shaded.cells);
-  finding.require(least == 8 && most == 64, fmt::format("{} to {} cells", least, most));
+  finding.require(least == 4 && most == 64, fmt::format("{} to {} cells", least, most));
+  finding.require(
+      least_of_two == 8 && most_of_one == 32,
+      fmt::format("{} at least in two grids, {} at most in one", least_of_two, most_of_one));
   return finding;
 }
 
-// Cells paid for, by brute force over the counts: lanes side by side walk as long as the longest of
-// them, two steps of two cells at a time.
+// Cells paid for, by brute force over the steps of both grids: lanes side by side walk each grid as
+// long as the longest of them does, two steps of two cells at a time.
 Finding paidCells(const CheckContext& context) {
   const DrawCase c = {"", GlintMethod::kZk16, {.3f, .3f}, {.05f, .05f}, 1e6f, 0, false,
                       16, {1e-4, 1e-2, 200}};
   const HandMadeFrame frame = seenFromAbove(c, 4096);
   const ShadedPixels shaded = drawPixels(context, c, frame);
+  const reference::GridRules rules = rulesOf(c);
   const auto lanes = static_cast<std::size_t>(context.lanes);
   Finding finding(0);
   double different = 0, visited = 0, paid = 0;
   for (std::size_t first = 0; first < shaded.cells.size(); first += lanes) {
-    std::uint32_t most = 0;
-    for (std::size_t i = first; i < first + lanes; ++i) most = std::max(most, shaded.cells[i]);
+    std::size_t most[2] = {0, 0};
     for (std::size_t i = first; i < first + lanes; ++i) {
-      different += shaded.paid[i] != (most + 3) / 4 * 4;
+      const auto grids = reference::visitZk16(asStored(frame.pixels[i].footprint), rules, c.ka);
+      for (int g = 0; g < 2; ++g) most[g] = std::max(most[g], grids[g].cells.size());
+    }
+    for (std::size_t i = first; i < first + lanes; ++i) {
+      different += shaded.paid[i] != (most[0] + 3) / 4 * 4 + (most[1] + 3) / 4 * 4;
       visited += shaded.cells[i];
       paid += shaded.paid[i];
     }
@@ -71,11 +98,8 @@ Finding footprintLevels(const CheckContext& context) {
   glints.gamma = {0.25f, 1};
   glints.finest_level = -30;
   std::vector<reference::PixelFootprint> footprints;
-  for (const HandMadePixel& pixel : randomPixels(5000, {1e-6, 1, 200})) {
-    footprints.push_back(pixel.footprint);
-    for (glm::dvec2* d : {&footprints.back().duv_dx, &footprints.back().duv_dy})
-      *d = glm::dvec2(glm::vec2(*d));  // the planes hold floats
-  }
+  for (const HandMadePixel& pixel : randomPixels(5000, {1e-6, 1, 200}))
+    footprints.push_back(asStored(pixel.footprint));
   for (const int ka : {1, 16, 64}) {
     const FootprintProbe probed =
         probeFootprints(context.bench, footprints, glints, GlintMethod::kZk16, ka, context.lanes);
@@ -215,7 +239,7 @@ Finding noRecurrence(const CheckContext& context) {
 std::vector<Check> cellChecks() {
   std::vector<Check> checks;
   checks.push_back({"cells/footprint", "error in units of its bound", footprintLevels});
-  checks.push_back({"cells/zk16_range", "pixels outside 8 to 64 cells", cellRange});
+  checks.push_back({"cells/zk16_range", "pixels outside 4 to 32 cells a grid", cellRange});
   checks.push_back({"cells/paid", "pixels that pay for other cells", paidCells});
   checks.push_back(
       {"cells/groove_length", "change along a long groove, of the contrast", grooveLength});
