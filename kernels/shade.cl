@@ -64,10 +64,10 @@ kernel void shade(global const uint* planes, constant const FrameParams* frame,
 #if ALL_MATERIALS
                   global const uint* owners,
 #endif
-                  global float* radiance
+                  global float* restrict radiance
 #if COUNT_CELLS
                   ,
-                  global uint* cell_counts
+                  global uint* restrict cell_counts
 #endif
 ) {
   const size_t first = get_global_id(0) * WIDTH;
