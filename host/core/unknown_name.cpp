@@ -59,7 +59,7 @@ std::string unknownName(const std::string& kind, const std::string& name,
   const std::string plural = kinds.empty() ? kind + "s" : kinds;
   std::string text = fmt::format("unknown {} '{}'; ", kind, name);
   text += known.empty() ? fmt::format("there are no {}", plural)
-                        : fmt::format("{} are {}", plural, listOf(known, "and"));
+                        : fmt::format("{} are {}", plural, fmt::join(known, ", "));
   const std::string nearest = nearestName(name, known);
   return nearest.empty() ? text : fmt::format("{}; did you mean {}?", text, nearest);
 }
