@@ -61,7 +61,8 @@ typedef struct LightParams {
   float4 power;         // rgb: radiance times solid angle; w unused
   float one_minus_cos;  // of the half-angle, 0 for a point
   float cotangent;      // of the half-angle, 0 at 90 degrees and for a point
-  uint reserved[2];     // 0
+  uint skip;            // entries to the next light that is no part of this one; 1: it has no parts
+  float reach;          // chord from the axis that all directions of its parts are within
 } LightParams;
 
 // What one shading launch needs beside its pixels.

@@ -9,16 +9,13 @@
 #include <vector>
 
 #include "host/core/error.h"
+#include "host/core/unknown_name.h"
 
 namespace glintmark {
 namespace {
 
-std::string joined(const std::vector<std::string>& names) {
-  return fmt::format("{}", fmt::join(names, ", "));
-}
-
 // Options of the chosen command, then the program's, each once.
-std::string knownOptions(const CLI::App& app, const CLI::App& command) {
+std::vector<std::string> knownOptions(const CLI::App& app, const CLI::App& command) {
   std::vector<std::string> known;
   for (const CLI::App* level : {&command, &app}) {
     for (const CLI::Option* option : level->get_options()) {
@@ -27,14 +24,14 @@ std::string knownOptions(const CLI::App& app, const CLI::App& command) {
       known.push_back(name);
     }
   }
-  return joined(known);
+  return known;
 }
 
-std::string knownCommands(const CLI::App& app) {
+std::vector<std::string> knownCommands(const CLI::App& app) {
   std::vector<std::string> known;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
     known.push_back(command->get_name());
-  return joined(known);
+  return known;
 }
 
 // The innermost command that was named, or the program itself.
@@ -57,18 +54,16 @@ std::string explain(CLI::App& app, const CLI::ParseError& error) {
   const bool has_commands = !command.get_subcommands(nullptr).empty();
   for (const std::string& word : app.remaining(true)) {
     if (word.starts_with("-")) {
-      return fmt::format("unknown option '{}'; {} knows {}", word, name,
-                         knownOptions(app, command));
+      return unknownName("option", word, knownOptions(app, command), "options of " + name);
     }
     if (has_commands) {
-      return fmt::format("unknown command '{}'; commands of {} are {}", word, name,
-                         knownCommands(command));
+      return unknownName("command", word, knownCommands(command), "commands of " + name);
     }
     return fmt::format("'{}' is one argument too many for {}", word, name);
   }
   if (has_commands && error.get_name() == "RequiredError") {
     return fmt::format("no command given; commands of {} are {} (see {} --help)", name,
-                       knownCommands(command), pathOf(command));
+                       listOf(knownCommands(command), "and"), pathOf(command));
   }
   return fmt::format("{} (see {} --help)", error.what(), pathOf(command));
 }

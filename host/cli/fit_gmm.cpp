@@ -11,6 +11,7 @@
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
 #include "host/core/progress.h"
+#include "host/core/unknown_name.h"
 #include "host/experiment/interrupt.h"
 #include "host/experiment/mixture_picture.h"
 #include "host/filter/interpolated_normals.h"
@@ -66,12 +67,9 @@ void requireRange(const char* option, int value, int low, int high) {
 }
 
 int choice(const char* option, const std::string& text, const std::vector<std::string>& names) {
-  const auto found = std::ranges::find(names, text);
-  if (found == names.end()) {
-    throw Error(
-        fmt::format("{} '{}' is unknown; it is one of {}", option, text, fmt::join(names, ", ")));
-  }
-  return static_cast<int>(found - names.begin());
+  requireKnownName(fmt::format("value of {}", option), text, names,
+                   fmt::format("values of {}", option));
+  return static_cast<int>(std::ranges::find(names, text) - names.begin());
 }
 
 void checkFitGmm(FitGmmCommand& command) {

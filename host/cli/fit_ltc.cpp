@@ -9,6 +9,7 @@
 #include "host/core/error.h"
 #include "host/core/progress.h"
 #include "host/core/stopwatch.h"
+#include "host/core/unknown_name.h"
 #include "host/experiment/interrupt.h"
 #include "host/fit/ltc_error.h"
 #include "host/fit/ltc_fit.h"
@@ -32,12 +33,13 @@ struct MeasuredTable {
 };
 
 reference::Ndf parseNdf(const std::string& name) {
+  std::vector<std::string> known;
   for (const reference::Ndf ndf :
        {reference::Ndf::kGgx, reference::Ndf::kBeckmann, reference::Ndf::kNormals}) {
     if (name == reference::ndfName(ndf)) return ndf;
+    known.emplace_back(reference::ndfName(ndf));
   }
-  throw Error(
-      fmt::format("unknown distribution '{}'; distributions are ggx, beckmann and normals", name));
+  throw Error(unknownName("distribution", name, known));
 }
 
 void checkFitLtc(const FitLtcCommand& command) {

@@ -4,8 +4,10 @@
 #include <memory>
 
 #include "host/cli/command_line.h"
+#include "host/cli/shading_flags.h"
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
+#include "host/core/unknown_name.h"
 #include "host/experiment/angle_sweep.h"
 #include "host/experiment/count_cells.h"
 #include "host/frame/frame_renderer.h"
@@ -19,15 +21,15 @@ namespace {
 struct HeatmapCommand {
   std::string scene = "screen_plane", view, size;
   std::string picture, exr, csv;
-  std::string scale = "fixed", method = defaultMethod();
-  int drawn_lights = 0;
+  std::string scale = "fixed";
+  ShadingFlags flags{defaultMethod()};
   bool sweep_angle = false;
 };
 
 HeatmapScale parseScale(const std::string& name) {
   if (name == "fixed") return HeatmapScale::kFixed;
   if (name == "auto") return HeatmapScale::kAuto;
-  throw Error(fmt::format("unknown scale '{}'; scales are fixed (8 to 64 cells) and auto", name));
+  throw Error(unknownName("scale", name, std::vector<std::string>{"fixed", "auto"}));
 }
 
 void checkOutputs(const HeatmapCommand& command) {
@@ -54,6 +56,7 @@ int runView(const CommonOptions& common, const HeatmapCommand& command,
   const HeatmapScale scale = parseScale(command.scale);
   const Scene scene = openScene(common, command.scene);
   const View& view = chosenView(scene, command.view);
+  command.flags.noteIdle(scene, shading, common.quiet);
   Device device = openDevice(common);
   const CountedCells counted = countCells(device, scene, view, shading, common.threads);
 
@@ -85,11 +88,9 @@ int runHeatmap(const CommonOptions& common, const HeatmapCommand& command) {
   checkOutputs(command);
   const char* default_size = command.sweep_angle ? "960x540" : "1920x1080";
   const ImageSize size = parseSize(command.size.empty() ? default_size : command.size);
-  const ShadingOptions shading{.width_px = size.width_px,
-                               .height_px = size.height_px,
-                               .lanes = common.lanes,
-                               .method = parseMethod(command.method),
-                               .drawn_lights = checkedDrawnLights(command.drawn_lights)};
+  ShadingOptions shading{
+      .width_px = size.width_px, .height_px = size.height_px, .lanes = common.lanes};
+  command.flags.apply(shading);
   if (!command.sweep_angle) return runView(common, command, shading);
   return runAngleSweep(common, {.scene = command.scene,
                                 .view = command.view.empty() ? "sweep" : command.view,
@@ -115,11 +116,7 @@ void addHeatmapCommand(Command app, CommandLine& line) {
   command.option("--size", options->size, "Image size (default: 1920x1080; sweep: 960x540)")
       .typeName("WxH");
   command.option("--scale", options->scale, "fixed (8 to 64 cells) or auto (default: fixed)");
-  command.option("--method", options->method, methodHelp());
-  command
-      .option("--drawn-lights", options->drawn_lights,
-              "Draws glints under so many lights of a pixel, all others as one (default: 0, all)")
-      .typeName("N");
+  options->flags.addGlintOptions(command);
   command.flag("--sweep-angle", options->sweep_angle,
                "A view that orbits a plane, from 90 to 1 degrees: picture strip and CSV");
   command.option("--csv", options->csv, "Figures of the sweep, one line per angle")

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "host/cli/command_line.h"
+#include "host/cli/shading_flags.h"
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
 #include "host/core/statistics.h"
@@ -25,11 +26,8 @@ constexpr double kMostProfile_s = 86400;
 
 struct ProfileOptions {
   std::string scene, view, folder;
-  std::string size = "1920x1080", method = defaultMethod();
-  std::string normal_method = choiceName(ShadingOptions{}.normal_method);
-  std::string ltc_method = choiceName(ShadingOptions{}.ltc_method);
-  std::string geometric_aa = choiceName(ShadingOptions{}.geometric_aa);
-  int drawn_lights = 0;
+  std::string size = "1920x1080";
+  ShadingFlags flags{defaultMethod()};
   double seconds = 10;
 };
 
@@ -57,18 +55,13 @@ int runProfile(const CommandLine& line, const ProfileOptions& options) {
     throw Error(
         fmt::format("--seconds {} is not above 0 and at most {}", options.seconds, kMostProfile_s));
   const ImageSize size = parseSize(options.size);
-  const ShadingOptions shading{
-      .width_px = size.width_px,
-      .height_px = size.height_px,
-      .lanes = line.common.lanes,
-      .method = parseMethod(options.method),
-      .normal_method = parseChoice<NormalMethod>(options.normal_method, "normal method"),
-      .ltc_method = parseChoice<LtcMethod>(options.ltc_method, "area light method"),
-      .drawn_lights = checkedDrawnLights(options.drawn_lights),
-      .geometric_aa = parseChoice<GeometricAa>(options.geometric_aa, "geometric antialiasing")};
+  ShadingOptions shading{
+      .width_px = size.width_px, .height_px = size.height_px, .lanes = line.common.lanes};
+  options.flags.apply(shading);
   if (!options.folder.empty()) requireWritableFolder(options.folder);
   const Scene scene = openScene(line.common, options.scene);
   const View& view = chosenView(scene, options.view);
+  options.flags.noteIdle(scene, shading, line.common.quiet);
   Device device = openDevice(line.common);
   FrameRenderer renderer(device, scene, view, shading, line.common.threads);
   renderer.prepare();
@@ -105,20 +98,8 @@ void addProfileCommand(Command app, CommandLine& line) {
       .typeName("FOLDER");
   command.option("--view", options->view, "View of the scene (default: its first)");
   command.option("--size", options->size, "Image size (default: 1920x1080)").typeName("WxH");
-  command.option("--method", options->method, methodHelp());
-  command
-      .option("--drawn-lights", options->drawn_lights,
-              "Draws glints under so many lights of a pixel, all others as one (default: 0, all)")
-      .typeName("N");
-  command.option(
-      "--geometric-aa", options->geometric_aa,
-      fmt::format("{} (default: {})", listOf(namesOf<GeometricAa>(), "or"), options->geometric_aa));
-  command.option("--normal-method", options->normal_method,
-                 fmt::format("{} (default: {})", listOf(namesOf<NormalMethod>(), "or"),
-                             options->normal_method));
-  command.option(
-      "--ltc-method", options->ltc_method,
-      fmt::format("{} (default: {})", listOf(namesOf<LtcMethod>(), "or"), options->ltc_method));
+  options->flags.addGlintOptions(command);
+  options->flags.addSurfaceOptions(command);
   command.option("--seconds", options->seconds, "How long (default: 10)").typeName("S");
   command.footer(
       "Everything but the kernels is done before the first of these frames.\n"

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "host/cli/command_line.h"
+#include "host/cli/shading_flags.h"
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
 #include "host/core/progress.h"
@@ -41,11 +42,8 @@ constexpr GlintMethod kRenderMethod = GlintMethod::kDistributed;
 
 struct RenderOptions {
   std::string scene, view, output, aov_output, trace;
-  std::string size = "1920x1080", method = choiceName(kRenderMethod);
-  std::string normal_method = choiceName(ShadingOptions{}.normal_method);
-  std::string ltc_method = choiceName(ShadingOptions{}.ltc_method);
-  std::string geometric_aa = choiceName(ShadingOptions{}.geometric_aa);
-  int drawn_lights = 0;
+  std::string size = "1920x1080";
+  ShadingFlags flags{choiceName(kRenderMethod)};
   int truth_spp = 0;  // 0: a frame
   int frames = 0;     // of a path; 0: one picture, without a number
   std::string path;
@@ -272,22 +270,18 @@ int runRender(const CommandLine& line, const RenderOptions& options) {
   checkRenderOptions(options);
   const ImageSize size = parseSize(options.size);
   if (!options.aov_output.empty()) requireMemoryForPlanes(size.width_px, size.height_px);
-  ShadingOptions shading{
-      .width_px = size.width_px,
-      .height_px = size.height_px,
-      .lanes = common.lanes,
-      .method = parseMethod(options.method),
-      .normal_method = parseChoice<NormalMethod>(options.normal_method, "normal method"),
-      .ltc_method = parseChoice<LtcMethod>(options.ltc_method, "area light method"),
-      .drawn_lights = checkedDrawnLights(options.drawn_lights),
-      .geometric_aa = parseChoice<GeometricAa>(options.geometric_aa, "geometric antialiasing"),
-      .glints = !options.no_glints};
+  ShadingOptions shading{.width_px = size.width_px,
+                         .height_px = size.height_px,
+                         .lanes = common.lanes,
+                         .glints = !options.no_glints};
+  options.flags.apply(shading);
   if (options.zoom != 0) return runZoom(common, options, shading);
   const Scene scene = openScene(common, options.scene);
   if (options.background && scene.environment.map == nullptr)
     throw Error(
         fmt::format("scene {} has no environment that --background could show", scene.name));
   const View& view = chosenView(scene, options.view);
+  options.flags.noteIdle(scene, shading, common.quiet, options.truth_spp > 0);
   Device device = openDevice(common);
   RunInfo run = describeRun(line, device);
   run.inputs = hashInputs(common, {options.scene});
@@ -347,20 +341,8 @@ void addRenderCommand(Command app, CommandLine& line) {
       .typeName("FILE");
   command.option("--trace", options->trace, "Chrome/Perfetto trace of host and device")
       .typeName("FILE");
-  command.option("--method", options->method, methodHelp(choiceName(kRenderMethod)));
-  command
-      .option("--drawn-lights", options->drawn_lights,
-              "Draws glints under so many lights of a pixel, all others as one (default: 0, all)")
-      .typeName("N");
-  command.option(
-      "--geometric-aa", options->geometric_aa,
-      fmt::format("{} (default: {})", listOf(namesOf<GeometricAa>(), "or"), options->geometric_aa));
-  command.option("--normal-method", options->normal_method,
-                 fmt::format("{} (default: {})", listOf(namesOf<NormalMethod>(), "or"),
-                             options->normal_method));
-  command.option(
-      "--ltc-method", options->ltc_method,
-      fmt::format("{} (default: {})", listOf(namesOf<LtcMethod>(), "or"), options->ltc_method));
+  options->flags.addGlintOptions(command);
+  options->flags.addSurfaceOptions(command);
   command
       .option("--truth", options->truth_spp,
               "The ground truth by so many samples a pixel, in place of any method")

@@ -9,6 +9,7 @@
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
 #include "host/core/progress.h"
+#include "host/core/unknown_name.h"
 #include "host/experiment/interrupt.h"
 #include "host/experiment/msbrdf/lobe_picture.h"
 #include "host/parallel/ranks.h"
@@ -23,6 +24,8 @@ namespace glintmark {
 namespace {
 
 constexpr double kSaveEvery_ns = 10e9;
+const std::vector<std::string> kSurfaces = {"diffuse", "metal", "dielectric"};
+const std::vector<std::string> kModels = {"heights", "smith"};
 
 struct SimulateOptions {
   std::string surface = "diffuse", model = "heights";
@@ -31,20 +34,33 @@ struct SimulateOptions {
   double albedo = 1;
   std::string checkpoint, picture, csv;
   bool resume = false;
+  bool ior_given = false, k_given = false, correlation_given = false;
   SimulationSettings settings;
 };
+
+// Throws Error for an option that would do nothing.
+void refuseIdleOptions(const SimulateOptions& options, const SimulationSettings& settings) {
+  if (options.correlation_given && settings.model == SurfaceModel::kSmith)
+    throw Error(
+        "--correlation is for --model heights; facets of Smith's theory have no heights that go "
+        "together");
+  if (options.ior_given && settings.kind == SurfaceKind::kDiffuse)
+    throw Error("--ior is for metals and dielectrics; diffuse surfaces have --albedo");
+  if (options.k_given && settings.kind != SurfaceKind::kMetal)
+    throw Error("--k is for metals alone; add --surface metal");
+}
 
 SurfaceKind parseSurface(const std::string& name) {
   if (name == "diffuse") return SurfaceKind::kDiffuse;
   if (name == "metal") return SurfaceKind::kMetal;
   if (name == "dielectric") return SurfaceKind::kDielectric;
-  throw Error(fmt::format("unknown surface '{}'; surfaces are diffuse, metal, dielectric", name));
+  throw Error(unknownName("surface", name, kSurfaces));
 }
 
 SurfaceModel parseModel(const std::string& name) {
   if (name == "heights") return SurfaceModel::kHeights;
   if (name == "smith") return SurfaceModel::kSmith;
-  throw Error(fmt::format("unknown model '{}'; models are heights, smith", name));
+  throw Error(unknownName("model", name, kModels));
 }
 
 SimulationSettings makeSettings(const SimulateOptions& options) {
@@ -59,6 +75,7 @@ SimulationSettings makeSettings(const SimulateOptions& options) {
     throw Error(fmt::format("--albedo {} is not from 0 to 1", options.albedo));
   if (options.albedo < 1 && settings.kind != SurfaceKind::kDiffuse)
     throw Error("--albedo is for diffuse surfaces; metals and dielectrics follow Fresnel");
+  refuseIdleOptions(options, settings);
   if (options.resume && options.checkpoint.empty())
     throw Error("--resume needs the file to carry on from: add --checkpoint FILE");
   validate(settings);
@@ -247,14 +264,15 @@ void addSimulateCommand(Command app, CommandLine& line) {
       .values(1, 2);
   command.option("--incidence", s.incidence_deg, "Of the light, degrees from the normal (45)");
   command.option("--azimuth", s.azimuth_deg, "Of the light, degrees from x (0)");
-  command.option("--ior", s.index_n, "Index of refraction, of metals its real part (1.5)");
-  command.option("--k", s.index_k, "Imaginary part of a metal's index (0)");
+  const CommandOption ior =
+      command.option("--ior", s.index_n, "Index of refraction, of metals its real part (1.5)");
+  const CommandOption k = command.option("--k", s.index_k, "Imaginary part of a metal's index (0)");
   command.option("--albedo", options->albedo, "Of diffuse microfacets (1)");
   command.option("--orders", s.orders, "Bounces that rays are followed for, 1 to 6 (4)");
   command.option("--rays", options->rays, "How many, as in 500e6 (2^24)");
   command.option("--seed", s.seed, "Of surfaces and rays (1)");
-  command.option("--correlation", s.correlation_texels,
-                 "Correlation length of the heights in texels (3)");
+  const CommandOption correlation = command.option(
+      "--correlation", s.correlation_texels, "Correlation length of the heights in texels (3)");
   command.option("--checkpoint", options->checkpoint, "Keeps what is done in this file")
       .typeName("FILE");
   command.flag("--resume", options->resume, "Carries on from the checkpoint, if there is one");
@@ -266,7 +284,10 @@ void addSimulateCommand(Command app, CommandLine& line) {
       "  glintmark simulate --alpha 0.8 --incidence 60 -o orders.png\n"
       "  glintmark simulate --surface metal --ior 0.2 --k 3.9 --alpha 0.5 0.1\n"
       "  glintmark simulate --rays 500e6 --checkpoint run.sim --resume");
-  command.callback([options, &line] {
+  command.callback([options, ior, k, correlation, &line] {
+    options->ior_given = ior.given();
+    options->k_given = k.given();
+    options->correlation_given = correlation.given();
     line.shares_work = true;
     line.action = [options, &line] { return runSimulate(line, *options); };
   });

@@ -8,6 +8,7 @@
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
 #include "host/core/trace.h"
+#include "host/core/unknown_name.h"
 #include "host/experiment/all_tables.h"
 #include "host/experiment/interrupt.h"
 #include "host/experiment/survival.h"
@@ -35,11 +36,7 @@ std::vector<std::string> namesOf(const std::vector<BenchTable>& tables) {
 // Throws Error if some chosen name is none of the known ones.
 void requireKnown(const char* what, const std::vector<std::string>& chosen,
                   const std::vector<std::string>& known) {
-  for (const std::string& name : chosen) {
-    if (std::ranges::find(known, name) == known.end())
-      throw Error(
-          fmt::format("unknown {} '{}'; {}s are {}", what, name, what, fmt::join(known, ", ")));
-  }
+  for (const std::string& name : chosen) requireKnownName(what, name, known);
 }
 
 // Does the table have any of the chosen names?
@@ -59,6 +56,11 @@ std::vector<BenchTable> chooseTables(const std::vector<std::string>& names,
   for (const BenchTable& table : tables) {
     scenes.insert(scenes.end(), table.scenes.begin(), table.scenes.end());
     views.insert(views.end(), table.views.begin(), table.views.end());
+  }
+  for (std::vector<std::string>* names_of_all : {&scenes, &views}) {
+    std::ranges::sort(*names_of_all);
+    const auto again = std::ranges::unique(*names_of_all);
+    names_of_all->erase(again.begin(), again.end());
   }
   requireKnown("scene", options.scenes, scenes);
   requireKnown("view", options.views, views);

@@ -27,6 +27,7 @@ KernelConfig chosenConfig(const ProgramCall& call, int lanes) {
   // Microdetails and maps have no wider lobe: the mesh's curvature is not theirs.
   if (!call.truth && !config.glint && !config.normal_map)
     setKnobs(call.options, &KernelConfig::cone_lights, config);
+  if (!call.truth) setKnobs(call.options, &KernelConfig::light_cone, config);
   config.planes = planesFor(config);
   return config;
 }

@@ -65,7 +65,9 @@ void FramePass::makeBands() {
 }
 
 void FramePass::makeLights() {
-  const std::vector<LightParams> prepared = prepareLights(scene_.lights);
+  const bool cuts = options_.light_cut != LightCut::kAll && !kernel_.truth;
+  const std::vector<LightParams> prepared =
+      cuts ? prepareLightTree(scene_.lights) : prepareLights(scene_.lights);
   light_count_ = static_cast<uint>(prepared.size());
   lights_ = upload(device_, prepared, BufferPurpose::kLights);
 }

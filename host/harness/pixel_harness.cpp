@@ -10,6 +10,7 @@
 #include "host/core/planes.h"
 #include "host/frame/effect/glint_table.h"
 #include "host/frame/effect/light_taps.h"
+#include "host/frame/effect/light_tree.h"
 #include "host/frame/effect/lights.h"
 #include "host/frame/effects.h"
 #include "host/frame/shade_arguments.h"
@@ -59,7 +60,6 @@ FrameParams paramsOf(const HandMadeFrame& frame, std::size_t stride) {
   params.ray_origin = toFloat4(frame.ray_origin);
   params.ray_dx = toFloat4(frame.ray_dx);
   params.ray_dy = toFloat4(frame.ray_dy);
-  params.light_count = static_cast<uint>(frame.lights.size());
   params.list_count = static_cast<uint>(frame.pixels.size());
   params.plane_stride = static_cast<uint>(stride);
   return params;
@@ -87,15 +87,20 @@ ShadedPixels shadePixels(KernelBench& bench, const HandMadeFrame& frame, KernelC
 
   Buffer radiance(device, stride * 12, BufferPurpose::kProbe, "radiance");
   Buffer counts(device, stride * 8, BufferPurpose::kProbe, "counts");
+  const bool cuts = config.light_cut != LightCut::kAll;
+  const std::vector<LightParams> lights =
+      cuts ? prepareLightTree(frame.lights) : prepareLights(frame.lights);
+  FrameParams params = paramsOf(frame, stride);
+  params.light_count = static_cast<uint>(lights.size());
   ShadeArguments arguments({.planes = probeData(bench, planeWords(frame, config.planes, stride)),
-                            .frame = probeData(bench, std::vector{paramsOf(frame, stride)}),
+                            .frame = probeData(bench, std::vector{params}),
                             .material = probeData(bench, std::vector{materialOf(frame, config)}),
-                            .lights = probeData(bench, prepareLights(frame.lights))});
+                            .lights = probeData(bench, lights)});
   if (const auto table = glintTable(device, config, BufferPurpose::kProbe))
     arguments.add("glint_table", *table);
   if (frame.scatter) arguments.add("scatter", probeData(bench, std::vector{*frame.scatter}));
   if (config.multiscatter != Multiscatter::kOff) {
-    const PreparedTaps taps = prepareTaps(frame.lights);
+    const PreparedTaps taps = prepareTaps(cuts ? lightTree(frame.lights).lights : frame.lights);
     arguments.add("light_taps", probeData(bench, taps.lights));
     arguments.add("taps", probeData(bench, taps.directions));
   }

@@ -37,7 +37,7 @@ class Draws {
 }  // namespace
 
 BinomialFrames binomialFrames(std::size_t pixels, double details, double probability, double kept,
-                              CountLaw law, std::uint32_t seed) {
+                              CountLaw law, std::uint32_t seed, double larger) {
   if (!(details > 0 && probability > 0 && probability <= 1))
     throw Error(
         fmt::format("{} microdetails of probability {} cannot be drawn; both must be above "
@@ -45,14 +45,21 @@ BinomialFrames binomialFrames(std::size_t pixels, double details, double probabi
                     details, probability));
   if (!(kept >= 0 && kept <= 1))
     throw Error(fmt::format("a motion that keeps {} of a pixel is none from 0 to 1", kept));
+  if (!(larger >= 1)) throw Error(fmt::format("a pixel made {} times as large is none", larger));
   Draws draws(probability, law, seed);
   const double expected = details * probability;
   BinomialFrames frames;
+  std::vector<std::int64_t> all;
   for (std::size_t i = 0; i < pixels; ++i) {
     const std::int64_t k = draws.reflecting(details);
+    all.push_back(k);
     const std::int64_t after = draws.of(k, kept) + draws.reflecting(details * (1 - kept));
     frames.still.push_back(static_cast<float>(static_cast<double>(k) / expected));
     frames.moved.push_back(static_cast<float>(static_cast<double>(after) / expected));
+  }
+  for (const std::int64_t k : all) {
+    const std::int64_t more = draws.reflecting(details * (larger - 1));
+    frames.zoomed.push_back(static_cast<float>(static_cast<double>(k + more) / expected / larger));
   }
   return frames;
 }

@@ -29,6 +29,13 @@ PixelLattice PixelLattice::moved(double x_px, double y_px) const {
   return lattice;
 }
 
+PixelLattice PixelLattice::zoomed(double ratio) const {
+  PixelLattice lattice = *this;
+  lattice.edge_x *= ratio;
+  lattice.edge_y *= ratio;
+  return lattice;
+}
+
 PixelLattice tiledLattice(const glm::dvec2& centre_uv, double area_uv, double aspect,
                           double angle_rad, int columns, int rows) {
   const glm::dvec2 along(std::cos(angle_rad), std::sin(angle_rad));

@@ -18,6 +18,8 @@ struct PixelLattice {
   double area() const;
   /// All of it moved by so many pixels.
   PixelLattice moved(double x_px, double y_px) const;
+  /// Its pixels made so many times as long and wide, each about its own centre.
+  PixelLattice zoomed(double ratio) const;
 };
 
 /// Pixels that lie edge to edge: steps are edges. `area_uv` of each, `aspect` >= 1 its long over

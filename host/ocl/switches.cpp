@@ -137,15 +137,6 @@ const Switch& switchNamed(std::string_view macro) {
   return *found;
 }
 
-std::string listOf(std::span<const std::string> items, std::string_view last_word) {
-  std::string text;
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    if (i > 0) text += i + 1 < items.size() ? ", " : fmt::format(" {} ", last_word);
-    text += items[i];
-  }
-  return text;
-}
-
 void requireAllowed(const KernelConfig& config) {
   for (const Switch& row : allSwitches()) {
     const int value = row.of(config);
@@ -180,8 +171,7 @@ std::vector<std::string> namesOf(std::span<const Choice> choices) {
 
 void throwUnknownChoice(std::span<const Choice> choices, const std::string& name,
                         const std::string& what) {
-  throw Error(fmt::format("unknown {} '{}'; {}s are {}", what, name, what,
-                          listOf(namesOf(choices), "and")));
+  throw Error(unknownName(what, name, namesOf(choices)));
 }
 
 }  // namespace glintmark

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "host/core/unknown_name.h"
 #include "host/ocl/kernel_config.h"
 
 namespace glintmark {
@@ -69,9 +70,6 @@ const Switch& switchNamed(std::string_view macro);
 
 /// Throws Error if a switch has a value that it may not have.
 void requireAllowed(const KernelConfig& config);
-
-/// "a", "a and b", "a, b and c", with any last word.
-std::string listOf(std::span<const std::string> items, std::string_view last_word);
 
 /// Its value; nothing if no choice goes by that name.
 std::optional<int> findChoice(std::span<const Choice> choices, std::string_view name);

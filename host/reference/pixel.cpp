@@ -7,6 +7,7 @@
 
 #include "host/reference/beckmann.h"
 #include "host/reference/binomial.h"
+#include "host/reference/lit_details.h"
 #include "host/reference/rivals.h"
 
 namespace glintmark::reference {
@@ -190,7 +191,17 @@ PixelResult evaluatePixel(const SurfacePixel& pixel, const Glints& glints,
     const bool distributed = options.method == GlintRule::kDistributed;
     if (distributed) {
       const double microdetails = sharedMicrodetails(pixel.footprint, grids, glints, stretch);
-      result.radiance += smooth * distributedRatio(grids, microdetails, draw, result.rounding);
+      const LitDetails lit =
+          litDetails(pixel.footprint, stretch, glints, microdetails, p, half, options.deep_uv);
+      const double one = 1 / (microdetails * p);
+      result.radiance += smooth * lit.sum * one;
+      result.rounding = std::max(result.rounding, lit.heaviest_rounded * one);
+      result.cells += lit.cells;
+      result.tied = result.tied || lit.tied;
+      if (lit.of_grids <= 0) continue;
+      result.radiance +=
+          smooth * lit.of_grids *
+          distributedRatio(grids, lit.of_grids * microdetails, draw, result.rounding);
     }
     for (const GridVisit& grid : grids) {
       if (!distributed) result.radiance += smooth * gridRatio(grid, draw, result.rounding);

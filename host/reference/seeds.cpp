@@ -16,16 +16,20 @@ std::int32_t cellOf(std::int32_t half, std::uint32_t shift) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(half) + shift) >> 16;
 }
 
-// The odd part of a number, and how many 2^32 it is from the nearest of its lower 32 bits.
-struct OddPart {
+// The lower 32 bits of a number, and how many 2^32 it is from the nearest that has no others.
+struct SplitIndex {
   std::uint32_t low = 0;
   std::uint32_t beyond = 0;
 };
-OddPart oddPart(std::int64_t i) {
-  while (i != 0 && i % 2 == 0) i /= 2;
+SplitIndex splitIndex(std::int64_t i) {
   const auto low = static_cast<std::uint32_t>(static_cast<std::uint64_t>(i));
   const std::int64_t near = static_cast<std::int32_t>(low);
   return {low, static_cast<std::uint32_t>(static_cast<std::uint64_t>((i - near) / 0x100000000))};
+}
+
+std::int64_t oddPart(std::int64_t i) {
+  while (i != 0 && i % 2 == 0) i /= 2;
+  return i;
 }
 
 }  // namespace
@@ -35,7 +39,11 @@ std::int32_t coherentIndex(std::int32_t i) {
 }
 
 std::uint32_t cellSeed(std::int64_t cell_u, std::int64_t cell_v, std::uint32_t salt) {
-  const OddPart u = oddPart(cell_u), v = oddPart(cell_v);
+  return plainCellSeed(oddPart(cell_u), oddPart(cell_v), salt);
+}
+
+std::uint32_t plainCellSeed(std::int64_t cell_u, std::int64_t cell_v, std::uint32_t salt) {
+  const SplitIndex u = splitIndex(cell_u), v = splitIndex(cell_v);
   std::uint32_t s = u.low * 0x9E3779B1u + v.low * 0x85EBCA77u + salt;
   s ^= s >> 16;
   s *= 0x7FEB352Du;

@@ -10,6 +10,9 @@ std::int32_t coherentIndex(std::int32_t i);
 /// Step 4: seed of a texture cell, from plain (not yet coherent) indices, of more than 32 bits too.
 std::uint32_t cellSeed(std::int64_t cell_u, std::int64_t cell_v, std::uint32_t salt = 0);
 
+/// The same of indices as they are: step 3 left out.
+std::uint32_t plainCellSeed(std::int64_t cell_u, std::int64_t cell_v, std::uint32_t salt = 0);
+
 /// Half vector in cells of its own grid, 16.16 fixed point.
 struct HalfVectorIndex {
   std::int32_t u = 0, v = 0;

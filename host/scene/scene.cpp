@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "host/core/error.h"
+#include "host/core/unknown_name.h"
 
 namespace glintmark {
 
@@ -44,8 +45,7 @@ const View& Scene::view(const std::string& view_name) const {
     if (candidate.name == view_name) return candidate;
     known.push_back(candidate.name);
   }
-  throw Error(fmt::format("scene {} has no view '{}', known are {}", name, view_name,
-                          fmt::join(known, ", ")));
+  throw Error(unknownName("view", view_name, known, "views of scene " + name));
 }
 
 }  // namespace glintmark

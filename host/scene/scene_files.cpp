@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "host/core/error.h"
+#include "host/core/unknown_name.h"
 #include "host/scene/load_scene.h"
 
 namespace glintmark {
@@ -47,8 +48,7 @@ fs::path findSceneFile(const std::string& scene) {
   }
   fs::path file = sceneFolder() / (scene + ".toml");
   if (!scene.empty() && !path.has_parent_path() && fs::is_regular_file(file, error)) return file;
-  throw Error(fmt::format("no scene '{}' in {}, known are {}", scene, sceneFolder().string(),
-                          fmt::join(listScenes(), ", ")));
+  throw Error(unknownName("scene", scene, listScenes(), "scenes in " + sceneFolder().string()));
 }
 
 fs::path findSceneResource(const fs::path& file, const fs::path& scene_file,

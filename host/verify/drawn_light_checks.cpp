@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <tuple>
 
 #include "host/core/angles.h"
 #include "host/harness/pixel_harness.h"
+#include "host/harness/random_pixels.h"
 #include "host/harness/tolerances.h"
 #include "host/reference/cone_chances.h"
 #include "host/scene/environment.h"
@@ -18,6 +20,8 @@ namespace {
 
 constexpr float kSkyRoughness = 0.5f, kSkyMicro = 0.05f;  // alpha_g, alpha_l
 constexpr int kSkyPixels = 1 << 13;
+// Of what all cones make of pixels, on average.
+constexpr double kFineCut = 0.02, kMediumCut = 0.05, kCoarseCut = 0.15;
 
 // The sky of scene glitter, cut into cones, with the zenith along the normal.
 std::vector<ConeLight> skyCones(int count) {
@@ -212,6 +216,33 @@ Finding skyBits(const CheckContext& context) {
   return finding;
 }
 
+// Cones that a lobe hardly tells apart count as one: against all of them, seen from anywhere.
+Finding cutError(const CheckContext& context, LightCut cut, double bound) {
+  Finding finding(bound);
+  for (const float roughness : {0.1f, 0.3f, 0.55f}) {
+    HandMadeFrame frame = skyFrame(skyCones(192), 1000);
+    frame.pixels = randomPixels(1 << 10, {1e-4, 1e-3, 1.001});
+    setRandomRays(frame);
+    frame.material.surface.alpha_g = {roughness, roughness};
+    frame.material.surface.albedo = {0.2f, 0.2f, 0.2f, 0};
+    KernelConfig config = skyConfig(context.lanes, 0, false);
+    config.diffuse = true;
+    const ShadedPixels all = shadePixels(context.bench, frame, config);
+    config.light_cut = cut;
+    const ShadedPixels some = shadePixels(context.bench, frame, config);
+    double square = 0, sum = 0;
+    for (std::size_t i = 0; i < all.radiance.size(); ++i) {
+      const double one = luminanceOf(all.radiance[i]);
+      square += std::pow(luminanceOf(some.radiance[i]) - one, 2);
+      sum += one;
+    }
+    const auto n = static_cast<double>(all.radiance.size());
+    finding.add(std::sqrt(square / n) / (sum / n));
+    finding.require(square > 0, "every cone is seen by itself");
+  }
+  return finding;
+}
+
 }  // namespace
 
 std::vector<Check> drawnLightChecks() {
@@ -227,6 +258,13 @@ std::vector<Check> drawnLightChecks() {
                       "W1 to brute force, of its own deviation",
                       [cones = cones, drawn = drawn](const CheckContext& context) {
                         return skySpread(context, cones, drawn);
+                      }});
+  for (const auto& [name, cut, bound] : {std::tuple("fine", LightCut::kFine, kFineCut),
+                                         std::tuple("medium", LightCut::kMedium, kMediumCut),
+                                         std::tuple("coarse", LightCut::kCoarse, kCoarseCut)})
+    checks.push_back({fmt::format("drawn/cut_{}", name), "rms error of 192 cones, of their mean",
+                      [cut = cut, bound = bound](const CheckContext& context) {
+                        return cutError(context, cut, bound);
                       }});
   return checks;
 }

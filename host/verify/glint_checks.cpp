@@ -143,6 +143,8 @@ Finding drawForDraw(const CheckContext& context, const DrawCase& c) {
     const reference::PixelResult expected =
         reference::evaluatePixel(referencePixel(frame, frame.pixels[i]),
                                  referenceGlints(frame.material, c.groove), lights, options);
+    // Where a placed microdetail or a cell is on a border, floats decide.
+    if (c.method == kDistributed && expected.tied) continue;
     const double difference = std::abs(static_cast<double>(shaded.cells[i]) - expected.cells);
     finding.require(
         difference <= borderCells(c.method),

@@ -162,7 +162,8 @@ TEST(Accuracy, GlintsAgainstPlacedMicrodetails) {
   for (const char* metric :
        {"lobes_error", "tent_error", "largest_of_bound", "truth_largest_of_bound", "correlation",
         "truth_correlation", "motion_ratio", "error_swing", "variance_swing", "dark_swing",
-        "largest_swing", "correlation_swing", "motion_swing", "bias"})
+        "largest_swing", "correlation_swing", "motion_swing", "zoom_ratio", "zoom_swing",
+        "octave_correlation", "bias"})
     EXPECT_TRUE(figuresOf(folder, metric).contains("glints/method=exact/aspect=4/lambda=2"))
         << metric;
   // Figures by replicate carry their spread.

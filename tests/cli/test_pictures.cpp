@@ -211,6 +211,59 @@ TEST(Render, DrawnLightsBesideAreaLights) {
   EXPECT_NE(std::ranges::find(planes.channel_names, "Z"), planes.channel_names.end());
 }
 
+// Options that nothing looks at are said, each in a sentence; quiet runs say nothing.
+TEST(Render, SaysWhichOptionsDoNothing) {
+  const TempFolder folder;
+  const auto notes = [&](const std::string& scene, const std::vector<std::string>& options) {
+    std::vector<std::string> arguments = {"render",         scene,    "-o",
+                                          folder / "a.exr", "--size", "16x9"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const ProcessResult result = runGlintmark(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return result.err;
+  };
+  const auto expect_note = [&](const std::string& err, const std::string& sentence) {
+    EXPECT_NE(err.find("note: " + sentence), std::string::npos) << err;
+  };
+  expect_note(notes("snow", {"--geometric-aa", "footprint"}),
+              "--geometric-aa does nothing to material snow, which has microdetails");
+  expect_note(notes("disk", {"--geometric-aa", "footprint"}), "--geometric-aa does nothing to");
+  expect_note(notes("snow", {"--ltc-method", "exact"}),
+              "--ltc-method does nothing in scene snow, which has no area lights");
+  expect_note(notes("snow", {"--no-glints", "--method", "zk16"}),
+              "--method does nothing in scene snow, since --no-glints leaves none");
+  expect_note(notes("disk", {"--truth", "4", "--normal-method", "lean"}),
+              "--normal-method does nothing with --truth, which knows no methods");
+  EXPECT_EQ(notes("snow", {"--method", "zk16"}).find("does nothing"), std::string::npos);
+  EXPECT_EQ(notes("snow", {"--quiet", "--ltc-method", "exact"}).find("does nothing"),
+            std::string::npos);
+}
+
+// A walk over a tree of cones: few at a rough lobe, and the same picture within some per cent.
+TEST(Render, LightCutStaysNearAllCones) {
+  const TempFolder folder;
+  const auto render = [&](const char* cut) {
+    runQuietly({"render", "glitter", "-o", folder / "a.exr", "--size", "48x27", "--no-glints",
+                "--no-star", "--set", "environment.cones=96", "--light-cut", cut});
+    return readImage(folder / "a.exr").pixels;
+  };
+  const std::vector<float> all = render("all"), coarse = render("coarse");
+  double change = 0, sum = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    change += std::abs(double{coarse[i]} - all[i]);
+    sum += all[i];
+  }
+  EXPECT_GT(change, 0);
+  EXPECT_LT(change / sum, 0.1);
+  const ProcessResult unknown =
+      runGlintmark({"render", "glitter", "-o", folder / "a.exr", "--light-cut", "fin"});
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_NE(unknown.err.find("unknown light cut 'fin'; light cuts are all, fine, medium, coarse; "
+                             "did you mean fine?"),
+            std::string::npos)
+      << unknown.err;
+}
+
 TEST(Render, DrawnLightsAreUpToEight) {
   const TempFolder folder;
   for (const char* count : {"9", "-1"}) {

@@ -33,6 +33,11 @@ void expectRefusedSimulation(const std::vector<std::string>& options,
 TEST(Simulate, ImpossibleOptionsAreRefused) {
   expectRefusedSimulation({"--surface", "wood"}, {"'wood'", "diffuse, metal, dielectric"});
   expectRefusedSimulation({"--model", "wood"}, {"'wood'", "heights, smith"});
+  // What would do nothing.
+  expectRefusedSimulation({"--model", "smith", "--correlation", "5"},
+                          {"--correlation is for --model heights"});
+  expectRefusedSimulation({"--ior", "1.4"}, {"--ior is for metals and dielectrics"});
+  expectRefusedSimulation({"--surface", "dielectric", "--k", "1"}, {"--k is for metals alone"});
   expectRefusedSimulation({"--model", "smith", "--surface", "dielectric"},
                           {"Smith's walk", "diffuse surfaces and metals"});
   for (const char* alpha : {"0", "-1", "3", "nan"})

@@ -29,6 +29,7 @@ TEST(GlintJudge, PlacedAndDrawnTruthsAgree) {
     EXPECT_NEAR(one.mean.mean(), 1, 0.01);
     EXPECT_NEAR(one.variance_ratio.mean(), 1, 0.2);
     EXPECT_NEAR(one.motion_ratio.mean(), 1, 0.1);
+    EXPECT_NEAR(one.zoom_ratio.mean(), 1, 0.1);
     EXPECT_NEAR(one.correlation.mean(), 0, 0.03);
     EXPECT_GT(one.variance_ratio.standardError(), 0);
   }
@@ -49,6 +50,22 @@ TEST(GlintJudge, FormsOfTheTruthDifferAsTheyShould) {
   EXPECT_NEAR(tent.variance_ratio.mean(), 4.0 / 9, 0.06);
   EXPECT_NEAR(tent.correlation.mean(), 0.25, 0.06);
   EXPECT_EQ(tent.tent_error, 0);
+}
+
+// Where few microdetails reflect, those that are placed stay over a zoom; those of grids do not.
+TEST(GlintJudge, PlacedGlintsStayOverAnOctave) {
+  Bench bench;
+  GlintJudge judge = bench.judge();
+  KernelConfig config;
+  config.width = kLanes;
+  config.size_variation = false;
+  config.method = GlintMethod::kDistributed;
+  constexpr std::size_t kFew = 0;  // square pixels, a tenth of a reflecting microdetail
+  const GlintFigures placed = judge.method(config, kFew, false);
+  EXPECT_NEAR(placed.octave_correlation.mean(), 0.5, 0.06);
+  EXPECT_NEAR(placed.zoom_ratio.mean(), 1, 0.25);
+  config.method = GlintMethod::kZk16;
+  EXPECT_GT(judge.method(config, 1, false).octave_correlation.mean(), 0.1);
 }
 
 TEST(GlintJudge, WhatShowsNoGlintsIsFarFromTheTruth) {

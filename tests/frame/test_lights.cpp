@@ -7,6 +7,7 @@
 
 #include "host/core/angles.h"
 #include "host/frame/effect/light_taps.h"
+#include "host/frame/effect/light_tree.h"
 #include "host/frame/effect/lights.h"
 
 namespace glintmark {
@@ -82,6 +83,68 @@ TEST(LightTaps, OfSeveralLightsStandOneAfterAnother) {
 TEST(Lights, OfNoneNothingIsMade) {
   EXPECT_TRUE(prepareLights({}).empty());
   EXPECT_TRUE(prepareTaps({}).directions.empty());
+}
+
+// Cones of 5 degrees around a circle, each of another power, and a point.
+std::vector<ConeLight> ring(int count) {
+  std::vector<ConeLight> lights;
+  for (int i = 0; i < count; ++i) {
+    const double a = 2 * kPi * i / count;
+    ConeLight light{};
+    light.direction = {static_cast<float>(std::cos(a)), static_cast<float>(std::sin(a)), 0.5f,
+                       static_cast<float>(5 * kDegree)};
+    light.irradiance = {1.0f + 0.01f * static_cast<float>(i), 1, 1, 0};
+    lights.push_back(light);
+  }
+  lights.push_back(cone(0));
+  return lights;
+}
+
+TEST(LightTree, EachConeStandsForItsParts) {
+  const std::vector<ConeLight> lights = ring(21);
+  const LightTree tree = lightTree(lights);
+  const std::vector<LightParams> params = prepareLightTree(lights);
+  ASSERT_EQ(tree.lights.size(), 2 * 21 - 1 + 1u);  // a binary tree, and the point
+  ASSERT_EQ(params.size(), tree.lights.size());
+  std::size_t leaves = 0;
+  for (std::size_t i = 0; i < tree.lights.size(); ++i) {
+    EXPECT_EQ(params[i].skip, tree.skips[i]);
+    if (tree.skips[i] == 1) {
+      ++leaves;
+      continue;
+    }
+    // Power adds up, and every part is within reach of the axis.
+    const LightCone whole = coneOf(tree.lights[i]);
+    double power = 0;
+    for (std::size_t j = i + 1; j < i + tree.skips[i]; ++j) {
+      if (tree.skips[j] > 1) continue;
+      power += params[j].power.x;
+      const LightCone part = coneOf(tree.lights[j]);
+      EXPECT_LE(glm::length(part.axis - whole.axis) + 2 * std::sin(0.5 * part.half_angle_rad),
+                tree.reaches[i] + 1e-5);
+    }
+    EXPECT_NEAR(params[i].power.x / power, 1, 1e-5);
+  }
+  EXPECT_EQ(leaves, lights.size());
+}
+
+// Of all walks, the one that stops at nothing sees every light once.
+TEST(LightTree, PartsFollowTheirCone) {
+  const LightTree tree = lightTree(ring(5));
+  for (std::size_t i = 0; i < tree.lights.size(); ++i) {
+    ASSERT_LE(i + tree.skips[i], tree.lights.size());
+    if (tree.skips[i] == 1) continue;
+    const std::size_t first = i + 1, second = first + tree.skips[first];
+    EXPECT_EQ(second + tree.skips[second], i + tree.skips[i]);
+  }
+}
+
+// What is 4 times as bright is another level, and no cone stands for both.
+TEST(LightTree, BrightAndDimStayApart) {
+  std::vector<ConeLight> lights = {cone(5), cone(5)};
+  lights[1].irradiance = {100, 200, 300, 0};
+  EXPECT_EQ(lightTree(lights).lights.size(), 2u);
+  EXPECT_TRUE(lightTree({}).lights.empty());
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "host/core/error.h"
+#include "host/core/unknown_name.h"
 #include "host/experiment/accuracy/accuracy_chart.h"
 #include "host/experiment/accuracy/accuracy_effect.h"
 #include "host/experiment/accuracy/accuracy_table.h"
@@ -27,9 +28,7 @@ std::vector<AccuracyKind> allKinds() {
 
 std::vector<AccuracyKind> chooseKinds(const std::vector<std::string>& names) {
   const std::vector<std::string> known = accuracyEffects();
-  for (const std::string& name : names)
-    if (std::ranges::find(known, name) == known.end())
-      throw Error(fmt::format("unknown effect '{}'; effects are {}", name, fmt::join(known, ", ")));
+  for (const std::string& name : names) requireKnownName("effect", name, known);
   std::vector<AccuracyKind> kinds = allKinds();
   if (!names.empty())
     std::erase_if(kinds, [&](const AccuracyKind& kind) {
@@ -61,7 +60,7 @@ void requireKnownScenes(const std::vector<AccuracyKind>& kinds,
     known.insert(known.end(), kind.scenes.begin(), kind.scenes.end());
   for (const std::string& name : names)
     if (std::ranges::none_of(known, [&](const auto& scene) { return goesBy(scene, name); }))
-      throw Error(fmt::format("unknown scene '{}'; scenes are {}", name, fmt::join(known, ", ")));
+      throw Error(unknownName("scene", name, known));
 }
 
 void requireKnownKnobs(const std::vector<AccuracyKind>& kinds,
@@ -70,9 +69,7 @@ void requireKnownKnobs(const std::vector<AccuracyKind>& kinds,
   for (const AccuracyKind& kind : kinds)
     for (const std::string& knob : kind.knobs)
       if (std::ranges::find(known, knob) == known.end()) known.push_back(knob);
-  for (const std::string& name : names)
-    if (std::ranges::find(known, name) == known.end())
-      throw Error(fmt::format("unknown knob '{}'; knobs are {}", name, fmt::join(known, ", ")));
+  for (const std::string& name : names) requireKnownName("knob", name, known);
 }
 
 // Those whose knob was asked for; all if none was.

@@ -233,7 +233,15 @@ const TableSpec& accuracySpec() {
            {"dark_swing", "1"},
            {"largest_swing", "1"},
            {"correlation_swing", "1"},
-           {"motion_swing", "1"}},
+           {"motion_swing", "1"},
+           {"zoom_ratio", "1", "change of growing glints",
+            "glints: mean change where pixels grow by a 16th of an octave, over the truth's, and "
+            "how "
+            "much that moves over a zoom by two"},
+           {"zoom_swing", "1"},
+           {"octave_correlation", "1", "coherence over an octave",
+            "correlation of pixels with the same twice as long and wide; of microdetails that stay "
+            "1/2"}},
       .cost_ratios = {"time_ratio"},
       .headline = Headline{"pareto", "settings on the front of accuracy against time", true},
       .pictures = {{.kind = PictureGroup::Kind::kHidden,

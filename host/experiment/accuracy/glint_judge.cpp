@@ -124,8 +124,10 @@ GlintJudge::Placed GlintJudge::placeAlone(const PlacedKey& key) {
       truth.place(lattice, surface, glintLight(stages_[stage]), filter, shown);
   const MicrodetailRatios moved = truth.place(lattice.moved(motion.x, motion.y), surface,
                                               glintLight(stages_[stage]), filter, shown);
-  return {{redOf(still.reflecting), redOf(moved.reflecting), side},
-          {redOf(still.lobes), redOf(moved.lobes), side}};
+  const MicrodetailRatios zoomed = truth.place(lattice.zoomed(kGlintZoomRatio), surface,
+                                               glintLight(stages_[stage]), filter, shown);
+  return {{redOf(still.reflecting), redOf(moved.reflecting), redOf(zoomed.reflecting), {}, side},
+          {redOf(still.lobes), redOf(moved.lobes), redOf(zoomed.lobes), {}, side}};
 }
 
 GlintJudge::Placed GlintJudge::place(const PlacedKey& key) {
@@ -145,7 +147,8 @@ void GlintJudge::shareTruths(const Ranks& ranks, PixelFilter filter) {
   std::string mine;
   const auto eachPart = [](Placed& placed, const auto& visit) {
     for (Frames* frames : {&placed.seen, &placed.lobes})
-      for (std::vector<float>* part : {&frames->still, &frames->moved}) visit(*part);
+      for (std::vector<float>* part : {&frames->still, &frames->moved, &frames->zoomed})
+        visit(*part);
   };
   for (std::size_t i = 0; i < keys.size(); ++i) {
     if (!ranks.makes(i)) continue;
@@ -193,6 +196,7 @@ const GlintJudge::Truth& GlintJudge::truth(std::size_t stage) {
     made.mean.correlation += one.correlation / kReplicates;
     made.mean.change += one.change / kReplicates;
     made.mean.largest = std::max(made.mean.largest, one.largest);
+    made.zoom_change += meanChange(frames.still, frames.zoomed) / kReplicates;
   }
   made.values = pooled(stills);
   made.lobe_values = pooled(lobe_stills);
@@ -212,10 +216,12 @@ GlintFigures GlintJudge::judged(std::size_t stage, int steps,
                                 bool with_tent) {
   const Truth& right = truth(stage);
   const double bound = 1 / glintLight(stages_[stage]).probability;
-  Grid mean(steps), variance(steps), dark(steps), largest(steps), correlation(steps), change(steps);
+  Grid mean(steps), variance(steps), dark(steps), largest(steps), correlation(steps), change(steps),
+      zoom(steps), octave(steps);
   std::vector<double> errors, lobe_errors, tent_errors;
   GlintFigures made;
   made.zooms = steps > 1;
+  bool has_octave = false;
   const std::vector<float>* const tent =
       with_tent && isPlaced(stage) ? &tentValues(stage) : nullptr;
   for (int step = 0; step < steps; ++step) {
@@ -223,8 +229,8 @@ GlintFigures GlintJudge::judged(std::size_t stage, int steps,
     std::vector<Frames> replicates = frames(step);
     for (std::size_t r = 0; r < replicates.size(); ++r) {
       Frames& seen = replicates[r];
-      made.sane = made.sane && std::ranges::all_of(seen.still, isSaneRatio) &&
-                  std::ranges::all_of(seen.moved, isSaneRatio);
+      for (const std::vector<float>* part : {&seen.still, &seen.moved, &seen.zoomed, &seen.doubled})
+        made.sane = made.sane && std::ranges::all_of(*part, isSaneRatio);
       const GlintStatistics one = glintStatistics(seen.still, seen.columns, seen.moved);
       const auto store = [&](Grid& grid, double value) {
         grid.values[r][static_cast<std::size_t>(step)] = value;
@@ -235,6 +241,9 @@ GlintFigures GlintJudge::judged(std::size_t stage, int steps,
       store(largest, one.largest / bound);
       store(correlation, one.correlation);
       store(change, one.change);
+      store(zoom, meanChange(seen.still, seen.zoomed));
+      has_octave = !seen.doubled.empty();
+      if (has_octave) store(octave, correlationOf(seen.still, seen.doubled));
       stills.push_back(std::move(seen.still));
     }
     if (!made.sane) return made;
@@ -257,6 +266,9 @@ GlintFigures GlintJudge::judged(std::size_t stage, int steps,
     made.largest.replicates[r] = *std::ranges::max_element(largest.values[r]);
   made.correlation = correlation.figure();
   made.motion_ratio = change.figure(over(1, right.mean.change));
+  // Where the truth sees one microdetail at least, a pixel that grows need not change.
+  if (right.zoom_change > 0) made.zoom_ratio = zoom.figure(1 / right.zoom_change);
+  if (has_octave) made.octave_correlation = octave.figure();
   made.truth_dark = right.mean.dark;
   made.truth_largest = right.mean.largest / bound;
   made.truth_correlation = right.mean.correlation;
@@ -289,13 +301,16 @@ GlintFigures GlintJudge::method(const KernelConfig& config, std::size_t stage, b
           const glm::dvec2 motion = glintMotion(r);
           lattices.push_back(lattice);
           lattices.push_back(lattice.moved(motion.x, motion.y));
+          lattices.push_back(lattice.zoomed(kGlintZoomRatio));
+          lattices.push_back(lattice.zoomed(2));
         }
         const auto ratios = methodRatios(device_, cache_, config, lattices,
                                          glintMaterial(stages_[stage], step), kGlintHalfSlope,
                                          glintTable(device_, config, BufferPurpose::kMicrodetails));
         std::vector<Frames> frames;
-        for (std::size_t i = 0; i < ratios.size(); i += 2)
-          frames.push_back({redOf(ratios[i]), redOf(ratios[i + 1]), side_});
+        for (std::size_t i = 0; i < ratios.size(); i += 4)
+          frames.push_back({redOf(ratios[i]), redOf(ratios[i + 1]), redOf(ratios[i + 2]),
+                            redOf(ratios[i + 3]), side_});
         return frames;
       },
       with_tent);
@@ -309,8 +324,8 @@ std::vector<GlintJudge::Frames> GlintJudge::drawn(std::size_t stage, int side,
   for (std::uint32_t r = 0; r < kGlintReplicates; ++r) {
     const BinomialFrames draws =
         binomialFrames(pixels, stages_[stage].lambda / p, p, 1 - kGlintMotion_px, CountLaw::kFixed,
-                       seed * kGlintReplicates + r);
-    frames.push_back({draws.still, draws.moved, side});
+                       seed * kGlintReplicates + r, kGlintZoomRatio * kGlintZoomRatio);
+    frames.push_back({draws.still, draws.moved, draws.zoomed, {}, side});
   }
   return frames;
 }

@@ -41,6 +41,10 @@ struct GlintFigures {
   ReplicatedFigure largest;         // of a replicate's pixels, over the bound 1 / p
   ReplicatedFigure correlation;     // over one pixel
   ReplicatedFigure motion_ratio;    // change per quarter pixel over the truth's
+  ReplicatedFigure zoom_ratio;      // change where pixels grow by kGlintZoomRatio, over the truth's
+  /// Of a pixel with itself twice as long and wide; of independent microdetails 1/2, as those of
+  /// the smaller are a quarter of the larger's. None of truths.
+  ReplicatedFigure octave_correlation;
   double truth_dark = 0, truth_largest = 0, truth_correlation = 0;
   bool zooms = true;  // else there is no swing
   bool sane = true;   // no ratio is negative or not finite
@@ -74,15 +78,17 @@ class GlintJudge {
   GlintFigures truthForm(const std::string& form, std::size_t stage);
 
  private:
-  // The frames of one sample: a lattice, and the same a quarter of a pixel on.
+  // The frames of one sample: a lattice, the same a quarter of a pixel on, its pixels a little
+  // larger, and, of methods, twice as long and wide.
   struct Frames {
-    std::vector<float> still, moved;
+    std::vector<float> still, moved, zoomed, doubled;
     int columns = 1;
   };
   struct Truth {
     std::vector<Frames> replicates, lobes;
     std::vector<float> values, lobe_values;  // of all replicates, ascending
     GlintStatistics mean;                    // over the replicates; `largest` of all
+    double zoom_change = 0;                  // meanChange() to pixels that are a little larger
     double noise = 0;                        // W1 of two independent samples of that size
   };
   // Of one sample, before anything is made of it.

@@ -40,6 +40,9 @@ constexpr StageColumn kSwings[] = {{"W1", "error_swing", Over::kMean},
                                    {"largest", "largest_swing", Over::kMean},
                                    {"correlation", "correlation_swing", Over::kMean},
                                    {"motion", "motion_swing", Over::kMean}};
+constexpr StageColumn kGrowths[] = {{"change", "zoom_ratio", Over::kGeometric},
+                                    {"swing", "zoom_swing", Over::kMean},
+                                    {"octave", "octave_correlation", Over::kMean}};
 
 // Of cases "glints/SETTING/aspect=…/lambda=…".
 struct StageCase {
@@ -176,6 +179,8 @@ std::vector<Record> glintStageRecords(const BenchRun& run, const std::string& ca
   add_replicates("correlation", "correlation_swing", figures.correlation);
   add("truth_correlation", {figures.truth_correlation});
   add_replicates("motion_ratio", "motion_swing", figures.motion_ratio);
+  add_replicates("zoom_ratio", "zoom_swing", figures.zoom_ratio);
+  add_replicates("octave_correlation", nullptr, figures.octave_correlation);
   return records;
 }
 
@@ -197,8 +202,15 @@ std::string glintStageText(std::span<const Record> records) {
       "its\n"
       "bound 1/p. corr.: with the next pixel. Last: the truth's other forms, and one binomial a "
       "pixel.\n\n"
-      "How much these move over a zoom by two, n kept: greatest less least of {} steps\n{}",
-      tableOf(records, kFigures), kGlintZoomSteps, tableOf(records, kSwings));
+      "How much these move over a zoom by two, n kept: greatest less least of {} steps\n{}\n"
+      "How pixels change while the camera moves away and their microdetails stay. change: where "
+      "they "
+      "grow\n"
+      "by a 16th of an octave, over the truth's; swing: of that, from level to level. octave: "
+      "correlation\n"
+      "with the same twice as long and wide, which of microdetails that stay is 1/2\n{}",
+      tableOf(records, kFigures), kGlintZoomSteps, tableOf(records, kSwings),
+      tableOf(records, kGrowths));
 }
 
 }  // namespace glintmark

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "host/core/error.h"
+#include "host/core/unknown_name.h"
 #include "host/experiment/all_tables.h"
 #include "host/experiment/frame_timing.h"
 #include "host/experiment/interrupt.h"
@@ -167,9 +168,7 @@ std::vector<Record> ScalingMeasurement::measure(const std::string& case_name) {
 
 void requireKnownScalingKnobs(const std::vector<std::string>& names) {
   const std::vector<std::string> known = scalingKnobs();
-  for (const std::string& name : names)
-    if (std::ranges::find(known, name) == known.end())
-      throw Error(fmt::format("unknown axis '{}'; axes are {}", name, fmt::join(known, ", ")));
+  for (const std::string& name : names) requireKnownName("axis", name, known, "axes");
 }
 
 }  // namespace

@@ -105,7 +105,7 @@ std::string text(const BenchRun& run) {
              "{:.0f},\nboth methods {:.0f} ms a frame) on {:.60}\n\n",
              run.options().size, info.width, info.peak_gflops, kGtx1070PeakGflops, kTao21FrameMs,
              info.device) +
-         tao21TableText(records) + "\n" + tao21SummaryText(records) + invalidText(records);
+         tao21TableText(records) + tao21SummaryText(records) + invalidText(records);
 }
 
 }  // namespace

@@ -79,13 +79,15 @@ const TableSpec& tao21Spec() {
 
 std::string tao21TableText(std::span<const Record> records) {
   TextTable table({"case", "ms", "relMSE", "colour err", "bias", "truth s.e."});
+  bool has_views = false;
   for (const std::string& name : caseNames(records)) {
     const CaseRecords one(records, name);
     if (one.find("rel_mse") == nullptr) continue;
+    has_views = true;
     table.addRow({name, one.text("shading_ms"), one.text("rel_mse"), one.text("colour_error"),
                   one.text("bias"), one.text("truth_stderr")});
   }
-  return table.toString();
+  return has_views ? table.toString() + "\n" : "";
 }
 
 std::string tao21SummaryText(std::span<const Record> records) {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "host/core/float4.h"
+#include "host/frame/effect/light_tree.h"
 
 namespace glintmark {
 namespace {
@@ -17,6 +18,7 @@ LightParams prepareLight(const ConeLight& light) {
   };
   params.power = {power(light.irradiance.x), power(light.irradiance.y), power(light.irradiance.z),
                   0};
+  params.skip = 1;
   params.one_minus_cos = static_cast<float>(cone.one_minus_cos);
   if (cone.half_angle_rad > 0)
     params.cotangent =
@@ -36,6 +38,16 @@ LightCone coneOf(const ConeLight& light) {
 std::vector<LightParams> prepareLights(std::span<const ConeLight> lights) {
   std::vector<LightParams> prepared;
   for (const ConeLight& light : lights) prepared.push_back(prepareLight(light));
+  return prepared;
+}
+
+std::vector<LightParams> prepareLightTree(std::span<const ConeLight> lights) {
+  const LightTree tree = lightTree(lights);
+  std::vector<LightParams> prepared = prepareLights(tree.lights);
+  for (std::size_t i = 0; i < prepared.size(); ++i) {
+    prepared[i].skip = tree.skips[i];
+    prepared[i].reach = tree.reaches[i];
+  }
   return prepared;
 }
 

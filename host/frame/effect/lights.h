@@ -22,4 +22,7 @@ LightCone coneOf(const ConeLight& light);
 /// Irradiance on a surface facing the axis becomes radiance times solid angle.
 std::vector<LightParams> prepareLights(std::span<const ConeLight> lights);
 
+/// The same as a tree that programs of LIGHT_CUT walk, in the order of lightTree().
+std::vector<LightParams> prepareLightTree(std::span<const ConeLight> lights);
+
 }  // namespace glintmark

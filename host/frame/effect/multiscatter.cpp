@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "host/frame/effect/light_taps.h"
+#include "host/frame/effect/light_tree.h"
 #include "host/frame/effect/scattering_params.h"
 #include "host/frame/effect_module.h"
 #include "host/ocl/upload.h"
@@ -41,7 +42,9 @@ struct TapBuffers {
 };
 
 TapBuffers uploadTaps(FrameResources& frame) {
-  const PreparedTaps taps = prepareTaps(frame.scene.lights);
+  const bool cuts = frame.options.light_cut != LightCut::kAll;
+  const PreparedTaps taps =
+      prepareTaps(cuts ? lightTree(frame.scene.lights).lights : frame.scene.lights);
   return {upload(frame.device, taps.lights, BufferPurpose::kLightTaps),
           upload(frame.device, taps.directions, BufferPurpose::kTaps)};
 }
