@@ -42,7 +42,8 @@ kernel void probeMixture(global const float* in, global float* out, uint count, 
     moments[k].w = loadFloat(in, plane + 3 * (size_t)count);
   }
   MixedLobe lobes[LOBES];
-  const int used = mixtureLobes(moments, (vfloat)(true_spread), alpha * alpha, lobes);
+  const int used = mixtureLobes(moments, pooledLobe(sumOfMoments(moments), (vfloat)(true_spread)),
+                                (vfloat)(true_spread), alpha * alpha, lobes);
   storeFloat((vfloat)((float)used), out, i);
   for (int k = 0; k < LOBES; ++k) {
     const float on = k < used ? 1.0f : 0.0f;
