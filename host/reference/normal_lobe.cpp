@@ -38,6 +38,12 @@ double massOnDisk(const NormalLobe& lobe) {
   return boost::math::cdf(squares, 1 / lobe.variance);
 }
 
+glm::dvec3 meanNormal(const NormalLobe& lobe) {
+  const double tilt_sq = glm::dot(lobe.mean, lobe.mean), z_sq = std::max(0.0, 1 - tilt_sq);
+  const double square = std::max(z_sq - 2 * lobe.variance, z_sq / 64);
+  return {lobe.mean, std::sqrt(square) / (1 + 0.5 * tilt_sq * lobe.variance / (z_sq * z_sq))};
+}
+
 LobeLight shadeLobe(const NormalLobe& lobe, const glm::dvec3& light, const glm::dvec3& view,
                     double alpha) {
   const double tilt = glm::length(lobe.mean);
@@ -66,8 +72,7 @@ LobeLight shadeLobe(const NormalLobe& lobe, const glm::dvec3& light, const glm::
     const double masking = 1 / (1 + smithLambda(light_z, alpha) + smithLambda(view_z, alpha));
     result.specular = lobe.weight * density * masking / (4 * view_z * massOnDisk(lobe));
   }
-  const double mean_variance = 0.5 * (lobe.variance + lobe.variance / (z * z));
-  result.cosine = lobe.weight * std::max(0.0, glm::dot(m, light)) / (1 + mean_variance);
+  result.cosine = lobe.weight * std::max(0.0, glm::dot(meanNormal(lobe), light));
   return result;
 }
 

@@ -48,7 +48,7 @@ std::vector<SpreadCone> spreadCones(double alpha, double half_rad) {
 }
 
 struct Spread {
-  double specular = 0, schlick = 0;
+  double specular = 0, schlick = 0, cosine = 0;
 };
 
 // The mean over the cone.
@@ -63,8 +63,10 @@ Spread bruteForce(const SpreadCone& c, double half_rad, double alpha, double var
     const double phi = 2 * kPi * std::fmod(k * 0.6180339887498949, 1.0);
     const double radius = std::sqrt(height * (2 - height));
     const glm::dvec3 i = (1 - height) * c.axis + radius * (std::cos(phi) * t + std::sin(phi) * b);
-    const double value = reference::shadeLobe(lobe, i, c.view, alpha).specular;
+    const reference::LobeLight shaded = reference::shadeLobe(lobe, i, c.view, alpha);
+    const double value = shaded.specular;
     sum.specular += value / kDirections;
+    sum.cosine += shaded.cosine / kDirections;
     sum.schlick +=
         value / kDirections * std::pow(1 - glm::dot(c.view, glm::normalize(i + c.view)), 5);
   }
@@ -98,6 +100,7 @@ Finding spread(const CheckContext& context, double half_deg) {
     for (std::size_t i = 0; i < cases.size(); ++i) {
       const Spread want = bruteForce(cases[i], half_rad, alpha, variance);
       finding.add(std::abs(out[i] / want.specular - 1));
+      finding.add(std::abs(out[2 * n + i] - want.cosine));
       finding.add(std::abs(out[n + i] - want.schlick) /
                   std::max(want.schlick, kDarkSchlick * want.specular));
     }

@@ -13,6 +13,7 @@
 #include "host/harness/tolerances.h"
 #include "host/reference/beckmann.h"
 #include "host/reference/microfacet.h"
+#include "host/reference/normal_lobe.h"
 #include "host/verify/check_frames.h"
 #include "host/verify/check_groups.h"
 
@@ -117,6 +118,7 @@ const std::vector<glm::vec2> kDiagonal = {
 const std::vector<glm::vec2> kSquare = {{0.1f, 0.1f}, {-0.1f, 0.1f}, {0.1f, -0.1f}, {-0.1f, -0.1f}};
 const std::vector<glm::vec2> kAlongU = {{0.2f, 0}, {0.06f, 0}, {0.17f, 0.01f}, {0.09f, -0.01f}};
 const std::vector<glm::vec2> kTilted = {{0.2f, -0.1f}};
+const std::vector<glm::vec2> kSteep = {{1.4f, 0.2f}, {1.1f, -0.7f}, {0.6f, 0.5f}, {2.2f, 0.1f}};
 const std::vector<glm::vec2> kClusters = clusteredSlopes();
 const std::vector<glm::vec2> kRows = rowsOfSlopes();
 
@@ -181,6 +183,53 @@ Finding methodIsTheMean(const CheckContext& context, const MethodCase& c) {
   return finding;
 }
 
+// Toksvig's lobe of normals that nearly lie in the surface is the one of the literature: its
+// Gaussian goes on beyond the rim of the disk, and its cosine is that of the mean normal, as short
+// as that is.
+Finding toksvigAtTheRim(const CheckContext& context) {
+  const NormalMap map = mapOfSlopes(kSteep);
+  const Scene scene = floorOf(map);
+  glm::dvec3 mean(0);
+  for (const glm::vec2& slope : kSteep) mean += glm::dvec3(normalOf(slope)) / double(kSteep.size());
+  const double length = glm::length(mean);
+  const glm::dvec3 m = mean / length;
+  const reference::NormalLobe gaussian = {1, {m.x, m.y}, (1 - length) / length};
+  const double on_disk = reference::massOnDisk(gaussian);
+  const SurfaceMaterial& surface = scene.materials[0].params.surface;
+  const reference::CoatedDiffuse coat(reference::Ndf::kBeckmann, surface.alpha_g.x, rgb(surface.f0),
+                                      surface.intensity);
+  const auto shaded = [&](const glm::dvec3& view) {
+    glm::dvec3 sum(0);
+    for (const ConeLight& light : scene.lights) {
+      const glm::dvec3 i = inFloor(glm::normalize(rgb(light.direction)));
+      const double specular =
+          on_disk * reference::shadeLobe(gaussian, i, view, surface.alpha_g.x).specular;
+      const double schlick = std::pow(1 - glm::dot(view, glm::normalize(i + view)), 5);
+      const glm::dvec3 fresnel = rgb(surface.f0) + (1.0 - rgb(surface.f0)) * schlick;
+      sum += rgb(light.irradiance) *
+             (static_cast<double>(surface.intensity) * specular * fresnel +
+              rgb(surface.albedo) * coat.share(std::max(glm::dot(m, view), 0.0)) *
+                  std::max(glm::dot(mean, i), 0.0) / kPi);
+    }
+    return sum;
+  };
+  Finding finding(kTiltedLobe);
+  finding.require(on_disk < 0.9, "the lobe is not at the rim");
+  ShadingOptions options{.width_px = kSize_px, .height_px = kSize_px, .lanes = context.lanes};
+  options.normal_method = NormalMethod::kToksvig;
+  FrameRenderer renderer(context.bench.device, scene, lookingDown(60, 3), options);
+  renderer.prepare();
+  renderer.shade();
+  const Image image = renderer.readRadiance();
+  for (int y = 0; y < kSize_px; ++y)
+    for (int x = 0; x < kSize_px; ++x) {
+      const glm::dvec3 want = shaded(inFloor(-glm::normalize(renderer.camera().ray(x, y))));
+      for (std::size_t k = 0; k < 3; ++k)
+        finding.add(std::abs(image.at(x, y)[k] / want[static_cast<int>(k)] - 1));
+    }
+  return finding;
+}
+
 // Lobes stored as halves are those stored as floats, to their 11 bits.
 Finding halvesAreFloats(const CheckContext& context) {
   const Scene scene = floorOf(mapOfSlopes(kClusters));
@@ -204,6 +253,8 @@ std::vector<Check> normalMethodChecks() {
   for (const MethodCase& c : methodCases())
     checks.push_back({std::string("normal_method/") + c.name, "error of the mean over normals",
                       [&c](const CheckContext& context) { return methodIsTheMean(context, c); }});
+  checks.push_back(
+      {"normal_method/toksvig_at_the_rim", "error of the published lobe", toksvigAtTheRim});
   checks.push_back({"normal_method/halves", "relative difference from floats", halvesAreFloats});
   return checks;
 }

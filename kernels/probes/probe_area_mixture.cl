@@ -31,7 +31,8 @@ kernel void probeAreaMixture(global const float* points, constant const Material
   basis.normal = point.normal = broadcast3((float4)(0.0f, 0.0f, 1.0f, 0.0f));
   point.variance = (vfloat)(0.0f);
   MixedLobe lobes[LOBES];
-  const int used = mixtureLobes(moments, (vfloat)(1.0f), alpha_sq, lobes);
+  const int used = mixtureLobes(moments, pooledLobe(sumOfMoments(moments), (vfloat)(1.0f)),
+                                (vfloat)(1.0f), alpha_sq, lobes);
   const vfloat3 sum = shadeAreaMixture(point, basis, lobes, used, &material->surface, lights,
                                        light_count, table, table_size);
   storeFloat(sum.x, out, i);

@@ -15,7 +15,7 @@ kernel void probeLobe(global const float* in, global float* out, uint count, flo
   const vfloat3 light = {IN(4), IN(5), IN(6)}, view = {IN(7), IN(8), IN(9)};
 #undef IN
   const NormalLobe lobe = liftedLobe(lobeFromMoments(moments));
-  const LobeShape shape = shapeLobe(lobe, view, (vfloat)(alpha * alpha));
+  const LobeShape shape = shapeMixedLobe(lobe, view, (vfloat)(alpha * alpha));
   const LobeLight shaded = evaluateShape(&shape, lightGeometry(light, view), alpha);
   storeFloat(lobe.weight, out, i);
   storeFloat(lobe.normal.x, out, count + i);
@@ -42,7 +42,8 @@ kernel void probeMixture(global const float* in, global float* out, uint count, 
     moments[k].w = loadFloat(in, plane + 3 * (size_t)count);
   }
   MixedLobe lobes[LOBES];
-  const int used = mixtureLobes(moments, (vfloat)(true_spread), alpha * alpha, lobes);
+  const int used = mixtureLobes(moments, pooledLobe(sumOfMoments(moments), (vfloat)(true_spread)),
+                                (vfloat)(true_spread), alpha * alpha, lobes);
   storeFloat((vfloat)((float)used), out, i);
   for (int k = 0; k < LOBES; ++k) {
     const float on = k < used ? 1.0f : 0.0f;

@@ -17,7 +17,7 @@ kernel void probeMappedCone(global const float* in, global float* out, uint coun
   const vfloat3 axis = {IN(0), IN(1), IN(2)}, view = {IN(3), IN(4), IN(5)};
   const NormalLobe normals = {(vfloat)(1.0f), {IN(6), IN(7), IN(8)}, (vfloat)(variance)};
 #undef IN
-  const MethodLobe one = shapeLobe(normals, view, (vfloat)(alpha * alpha));
+  const MethodLobe one = shapeMixedLobe(normals, view, (vfloat)(alpha * alpha));
   LightLobe lobe;
   lobe.specular = lobe.schlick = lobe.cosine = (vfloat)(0.0f);
   addMappedCone(&one, axis, view, alpha, light, &lobe);

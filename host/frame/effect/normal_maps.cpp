@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <utility>
+
 #include "host/core/error.h"
 #include "host/core/free_memory.h"
 #include "host/core/progress.h"
@@ -47,7 +50,19 @@ NormalTexture uploadTexture(Device& device, const MipTexture& layout, const std:
           upload(device, texels, BufferPurpose::kNormalMaps), texel_bytes};
 }
 
-NormalTexture uploadTexture(Device& device, const MipTexels& texels) {
+// Moments smaller than this are 0 to every method. A lobe that a texel does not use keeps some
+// 2^-126 of its normals, and sums of such numbers are denormal, which costs processors with
+// microcode for them a hundred cycles each.
+constexpr float kLeastMoment = 1e-20f;
+
+void dropLeastMoments(std::vector<float4>& texels) {
+  for (float4& texel : texels)
+    for (float* value : {&texel.x, &texel.y, &texel.z, &texel.w})
+      if (std::abs(*value) < kLeastMoment) *value = 0;
+}
+
+NormalTexture uploadTexture(Device& device, MipTexels texels) {
+  dropLeastMoments(texels.texels);
   return uploadTexture(device, texels.layout, texels.texels,
                        static_cast<std::size_t>(texels.vectors) * sizeof(float4));
 }
@@ -75,9 +90,9 @@ NormalTexture uploadMixtures(Device& device, const NormalMap& map, int lobes, bo
                              MixtureOrder order, int iterations, bool for_area_lights) {
   const MixtureOptions options = mixtureOptions(lobes, order, iterations);
   const DiskCache cache = DiskCache::fromEnvironment();
-  const NormalMixtures mixtures = for_area_lights ? interpolatedMixtures(map, options, cache)
-                                                  : fittedMixtures(map, options, cache);
-  if (!half) return uploadTexture(device, mixtures.moments);
+  NormalMixtures mixtures = for_area_lights ? interpolatedMixtures(map, options, cache)
+                                            : fittedMixtures(map, options, cache);
+  if (!half) return uploadTexture(device, std::move(mixtures.moments));
   return uploadTexture(device, mixtures.moments.layout, packHalfMixtures(mixtures),
                        static_cast<std::size_t>(lobes) * 4 * sizeof(std::uint16_t));
 }
