@@ -7,6 +7,7 @@
 
 #include "host/core/float4.h"
 #include "host/frame/effect/lights.h"
+#include "host/ocl/upload.h"
 
 namespace glintmark {
 namespace {
@@ -45,6 +46,26 @@ PreparedTaps prepareTaps(std::span<const ConeLight> lights) {
     appendTaps(cone, count, taps.directions);
   }
   return taps;
+}
+
+namespace {
+
+struct TapBuffers {
+  Buffer lights, directions;
+};
+
+TapBuffers uploadTaps(FrameResources& frame) {
+  const PreparedTaps taps = prepareTaps(frame.scene.lights);
+  return {upload(frame.device, taps.lights, BufferPurpose::kLightTaps),
+          upload(frame.device, taps.directions, BufferPurpose::kTaps)};
+}
+
+}  // namespace
+
+void addLightTaps(FrameResources& frame, ShadeArguments& arguments) {
+  const auto& taps = frame.kept<TapBuffers>([&] { return uploadTaps(frame); });
+  arguments.add("light_taps", taps.lights);
+  arguments.add("taps", taps.directions);
 }
 
 }  // namespace glintmark
