@@ -85,8 +85,8 @@ std::vector<MetricSpec> metrics() {
       {"lobe_error_kulla_conty", "1"},
       {"lobe_error_fdez_aguera", "1"},
       {"runtime_ms", "ms", "multiple scattering at run time",
-       "kernel events with the model (refit; refit with masking; a metal's albedo scaling) minus "
-       "Lambert's, full screen, in turn",
+       "kernel events with the model (refit; refit with masking; a metal's albedo scaling, or a "
+       "lobe beside its own) minus Lambert's, full screen, in turn",
        "`all`"},
       {"runtime_published_ms", "ms"},
       {"runtime_eon_ms", "ms"},
