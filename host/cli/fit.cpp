@@ -22,6 +22,7 @@ void addFitCommand(Command app, CommandLine& line) {
   addFitLtcCommand(command, line);
   addFitMesoCommand(command, line);
   addFitLobesCommand(command, line);
+  addFitDielectricCommand(command, line);
   command.shareOptions();
 }
 

@@ -267,6 +267,8 @@ void addSimulateCommand(Command app, CommandLine& line) {
   const CommandOption ior =
       command.option("--ior", s.index_n, "Index of refraction, of metals its real part (1.5)");
   const CommandOption k = command.option("--k", s.index_k, "Imaginary part of a metal's index (0)");
+  command.option("--f0", s.f0, "Of metals, in place of an index: reflectance straight on");
+  command.option("--tint", s.tint, "At 82 degrees, times what Schlick's term has with f0 (1)");
   command.option("--albedo", options->albedo, "Of diffuse microfacets (1)");
   command.option("--orders", s.orders, "Bounces that rays are followed for, 1 to 6 (4)");
   command.option("--rays", options->rays, "How many, as in 500e6 (2^24)");

@@ -152,7 +152,7 @@ ceres::Solver::Options solverOptions() {
 
 }  // namespace
 
-LobeData makeLobeData(const Simulation& simulation, int order) {
+LobeData makeLobeData(const Simulation& simulation, int order, int side) {
   LobeData data;
   data.alpha = simulation.settings.alpha.x;
   data.mu_in = std::cos(glm::radians(simulation.settings.incidence_deg));
@@ -168,8 +168,8 @@ LobeData makeLobeData(const Simulation& simulation, int order) {
       for (int column = 0; column < 2 * kHalf; ++column) {
         const int folded = column < kHalf ? column : 2 * kHalf - 1 - column;
         const int cell = row / kRows * LobeData::kAzimuths + folded / kColumns;
-        data.energy[static_cast<std::size_t>(cell)] += static_cast<double>(
-            simulation.cell(0, o, static_cast<std::size_t>(row), static_cast<std::size_t>(column)));
+        data.energy[static_cast<std::size_t>(cell)] += static_cast<double>(simulation.cell(
+            side, o, static_cast<std::size_t>(row), static_cast<std::size_t>(column)));
       }
   const double rays = static_cast<double>(simulation.rays_done);
   for (double& energy : data.energy) {
@@ -179,11 +179,21 @@ LobeData makeLobeData(const Simulation& simulation, int order) {
   return data;
 }
 
-FreeLobe fitLobe(const LobeData& data, bool masking) {
+double cellEnergy(const LobeData& data, double cosine, double azimuth) {
+  const double folded = azimuth > kPi ? 2 * kPi - azimuth : azimuth;
+  const int row =
+      std::clamp(static_cast<int>((1 - cosine) * LobeData::kCosines), 0, LobeData::kCosines - 1);
+  const int column =
+      std::clamp(static_cast<int>(folded / kPi * LobeData::kAzimuths), 0, LobeData::kAzimuths - 1);
+  const int cell = row * LobeData::kAzimuths + column;
+  return data.energy[static_cast<std::size_t>(cell)];
+}
+
+FreeLobe fitLobe(const LobeData& data, bool masking, double deviation_rad, double exponent) {
   FreeLobe lobe;
   if (data.share <= 0) return lobe;
   const double mean = data.share / (2 * kPi);
-  double p[5] = {data.share * kPi, 1, 0.9, 0, masking ? 0.1 : 0};
+  double p[5] = {data.share * kPi, exponent, 0.9, deviation_rad, masking ? 0.1 : 0};
   ceres::Problem problem;
   problem.AddResidualBlock(new ceres::AutoDiffCostFunction<FreeCost, kCells, 5>(
                                new FreeCost{data, 1 / (mean * std::sqrt(kCells))}),

@@ -21,8 +21,12 @@ struct LobeData {
   static double cosine(int row) { return 1 - (row + 0.5) / kCosines; }
   static double azimuth(int column) { return (column + 0.5) * std::numbers::pi / kAzimuths; }
 };
-/// Takes one order of a simulation with azimuth 0; order 0: all orders together.
-LobeData makeLobeData(const Simulation& simulation, int order);
+/// Takes one order of a simulation with azimuth 0; order 0: all orders together. `side`: 0 what
+/// leaves above, 1 below, by the cosine from the normal down.
+LobeData makeLobeData(const Simulation& simulation, int order, int side = 0);
+
+/// Energy of the cell that holds a direction; azimuth [rad] over the whole turn.
+double cellEnergy(const LobeData& data, double cosine, double azimuth);
 
 /// The five parameters of [PAT18], "Customization".
 struct FreeLobe {
@@ -37,8 +41,10 @@ struct FreeLobe {
   double roughness() const { return 1 - std::log2(exponent + 1) / 10; }
 };
 
-/// Fits one lobe freely, by Ceres: all five parameters, or four and no masking.
-FreeLobe fitLobe(const LobeData& data, bool masking = true);
+/// Fits one lobe freely, by Ceres: all five parameters, or four and no masking. `deviation_rad`:
+/// where the axis is looked for first; `exponent`, how narrow a lobe.
+FreeLobe fitLobe(const LobeData& data, bool masking = true, double deviation_rad = 0,
+                 double exponent = 1);
 /// Its energy per solid angle.
 double freeLobeEnergy(const FreeLobe& lobe, double alpha, double mu_in, double cosine,
                       double azimuth);

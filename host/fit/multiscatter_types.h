@@ -6,7 +6,7 @@ namespace glintmark {
 
 #include "kernels/scatter/multiscatter.h"
 
-static_assert(sizeof(MultiscatterMaterial) == 208);
+static_assert(sizeof(MultiscatterMaterial) == 256);
 static_assert(sizeof(LightTaps) == 8);
 
 }  // namespace glintmark

@@ -99,7 +99,8 @@ ShadedPixels shadePixels(KernelBench& bench, const HandMadeFrame& frame, KernelC
   if (const auto table = glintTable(device, config, BufferPurpose::kProbe))
     arguments.add("glint_table", *table);
   if (frame.scatter) arguments.add("scatter", probeData(bench, std::vector{*frame.scatter}));
-  if (config.multiscatter != Multiscatter::kOff) {
+  if (config.multiscatter != Multiscatter::kOff ||
+      config.metal_compensation > MetalCompensation::kScaled) {
     const PreparedTaps taps = prepareTaps(cuts ? lightTree(frame.lights).lights : frame.lights);
     arguments.add("light_taps", probeData(bench, taps.lights));
     arguments.add("taps", probeData(bench, taps.directions));

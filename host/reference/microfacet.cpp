@@ -60,19 +60,12 @@ double microfacetTimesCosine(Ndf ndf, const glm::dvec3& i, const glm::dvec3& o, 
   return 0.25 * microfacetDensity(ndf, m, alpha) * masking;
 }
 
-namespace {
-
-struct LobeIntegrals {
-  double mirror = 0, schlick = 0;
-};
-
-// Integrals of the BRDF times i.z over i for one o, at a Fresnel term of 1 and of (1 - o.m)^5.
-LobeIntegrals lobeIntegrals(Ndf ndf, double mu, double alpha, SmithForm form) {
+AlbedoParts microfacetAlbedoParts(Ndf ndf, double mu, double alpha, SmithForm form) {
   // Normals m with quantile u of their slope and azimuth phi: d m = 1 / (D m.z) d(u, phi / 2 pi),
   // and d i = 4 o.m d m. GGX: slope^2 = alpha^2 u / (1 - u); Beckmann: -alpha^2 log(1 - u).
   constexpr int kSlopes = 192, kAzimuths = 96;  // azimuths over half a turn
   const glm::dvec3 o(std::sqrt(std::max(1 - mu * mu, 0.0)), 0, mu);
-  LobeIntegrals sum;
+  AlbedoParts sum;
   for (int k = 0; k < kSlopes; ++k) {
     const double u = (k + 0.5) / kSlopes;
     const double slope_sq = ndf == Ndf::kGgx ? u / (1 - u) : -std::log1p(-u);
@@ -93,17 +86,15 @@ LobeIntegrals lobeIntegrals(Ndf ndf, double mu, double alpha, SmithForm form) {
   return {sum.mirror / (kSlopes * kAzimuths), sum.schlick / (kSlopes * kAzimuths)};
 }
 
-}  // namespace
-
 double microfacetAlbedo(Ndf ndf, double mu, double alpha, SmithForm form) {
-  return lobeIntegrals(ndf, mu, alpha, form).mirror;
+  return microfacetAlbedoParts(ndf, mu, alpha, form).mirror;
 }
 
 CoatedDiffuse::CoatedDiffuse(Ndf ndf, double alpha, const glm::dvec3& f0, double intensity) {
   constexpr int kCosines = 128;
   for (int i = 0; i < kCosines; ++i) {
     const double mu = std::max(static_cast<double>(i) / (kCosines - 1), 1e-4);
-    const auto [mirror, schlick] = lobeIntegrals(ndf, mu, alpha, SmithForm::kExact);
+    const auto [mirror, schlick] = microfacetAlbedoParts(ndf, mu, alpha, SmithForm::kExact);
     shares_.push_back(glm::max(1.0 - intensity * (f0 * (mirror - schlick) + schlick), 0.0));
   }
 }

@@ -46,6 +46,13 @@ double microfacetTimesCosine(Ndf ndf, const glm::dvec3& i, const glm::dvec3& o, 
 /// 1, by a fixed rule over the normals' slopes, good to 3e-4 for alpha in [0.01, 1].
 double microfacetAlbedo(Ndf ndf, double mu, double alpha, SmithForm form = SmithForm::kExact);
 
+/// That integral, and the same with Schlick's (1 - o.m)^5 within.
+struct AlbedoParts {
+  double mirror = 0, schlick = 0;
+};
+AlbedoParts microfacetAlbedoParts(Ndf ndf, double mu, double alpha,
+                                  SmithForm form = SmithForm::kExact);
+
 /// A diffuse layer under an isotropic lobe: what the lobe leaves of the light, per channel. What is
 /// reflected towards o.z = mu and what reaches the layer are taken to be the same share.
 class CoatedDiffuse {

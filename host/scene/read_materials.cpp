@@ -36,12 +36,22 @@ void readNdf(SceneTable& table, Material& material) {
 }
 
 void readCompensation(SceneTable& table, Material& material) {
-  constexpr const char* kNames[] = {"off", "lobe", "simulated"};
+  constexpr const char* kNames[] = {"off",    "lobe",        "simulated",
+                                    "series", "kulla_conty", "fdez_aguera"};
   const std::string name = table.text("compensation", "off");
   const auto found = std::ranges::find(kNames, name);
   if (found == std::end(kNames))
-    table.fail("compensation", fmt::format("is '{}', expected off, lobe or simulated", name));
+    table.fail("compensation", fmt::format("is '{}', expected off, lobe, simulated, series, "
+                                           "kulla_conty or fdez_aguera",
+                                           name));
   material.compensation = static_cast<Compensation>(found - std::begin(kNames));
+  const float4& albedo = material.params.surface.albedo;
+  if (material.compensation >= Compensation::kKullaConty &&
+      std::max({albedo.x, albedo.y, albedo.z}) > 0)
+    table.fail("compensation",
+               fmt::format("'{}' is a lobe of its own, of metals: it needs albedo 0", name));
+  if (material.compensation == Compensation::kSimulated && material.ggx)
+    table.fail("compensation", "'simulated' is of Beckmann's facets, 'lobe' of ndf ggx too");
 }
 
 void readScattering(SceneTable& table, Material& material) {

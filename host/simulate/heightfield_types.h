@@ -6,6 +6,6 @@ namespace glintmark {
 
 #include "kernels/scatter/heightfield.h"
 
-static_assert(sizeof(HeightfieldRun) == 48);
+static_assert(sizeof(HeightfieldRun) == 64);
 
 }  // namespace glintmark

@@ -48,6 +48,13 @@ std::size_t cellIndex(int side, int order, std::size_t cosine, std::size_t azimu
   return (block * HF_COSINES + cosine) * HF_AZIMUTHS + azimuth;
 }
 
+// What Schlick's term loses, over mu (1 - mu)^6, for `tint` times as much to be left at mu = 1 / 7.
+double dipOf(double f0, double tint) {
+  constexpr double kCosine = 1.0 / 7;
+  const double schlick = f0 + (1 - f0) * std::pow(1 - kCosine, 5);
+  return schlick * (1 - tint) / (kCosine * std::pow(1 - kCosine, 6));
+}
+
 HeightfieldRun makeRun(const SimulationSettings& s, float count_height,
                        std::uint32_t rays_per_lane) {
   const glm::dvec3 light = incidentDirection(s);
@@ -57,6 +64,10 @@ HeightfieldRun makeRun(const SimulationSettings& s, float count_height,
   run.count_height = count_height;
   run.index_n = static_cast<float>(s.index_n);
   run.index_k = static_cast<float>(s.index_k);
+  if (s.f0) {
+    run.f0 = static_cast<float>(*s.f0);
+    run.dip = static_cast<float>(dipOf(*s.f0, s.tint));
+  }
   run.orders = static_cast<uint>(s.orders);
   run.rays_per_lane = rays_per_lane;
   return run;
@@ -78,6 +89,11 @@ void validate(const SimulationSettings& s) {
                     s.index_n));
   if (s.kind == SurfaceKind::kMetal)
     requireRange("imaginary index of refraction k", s.index_k, 0, 1000);
+  if (s.f0 && s.kind != SurfaceKind::kMetal)
+    throw Error("a reflectance f0 is of metals; others have an index of refraction");
+  if (s.f0) requireRange("reflectance f0", *s.f0, 1e-3, 1);
+  requireRange("tint", s.tint, 0, 1);
+  if (s.tint != 1 && !s.f0) throw Error("a tint is of metals by their f0; give that too");
   if (s.model == SurfaceModel::kSmith && s.kind == SurfaceKind::kDielectric)
     throw Error("Smith's walk is of diffuse surfaces and metals; choose one of those, or heights");
   if (s.model == SurfaceModel::kSmith && s.last_bounce_leaves)
@@ -93,9 +109,9 @@ glm::dvec3 incidentDirection(const SimulationSettings& s) {
 }
 
 std::string traceOptions(const SimulationSettings& settings, int lanes) {
-  return fmt::format("-D WIDTH={} -D SURFACE_KIND={} -D LAST_BOUNCE_LEAVES={:d} -D GROUPS={}",
+  return fmt::format("-D WIDTH={} -D SURFACE_KIND={} -D LAST_BOUNCE_LEAVES={:d} -D GROUPS={}{}",
                      lanes, static_cast<int>(settings.kind), settings.last_bounce_leaves,
-                     lanes > 1 ? kGroups : 1);
+                     lanes > 1 ? kGroups : 1, settings.f0 ? " -D METAL_FRESNEL=1" : "");
 }
 
 std::uint64_t Simulation::left(int side, int order) const {

@@ -6,6 +6,7 @@
 #include <functional>
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -32,7 +33,11 @@ struct SimulationSettings {
   double azimuth_deg = 0;     // of the light, from +x
   double index_n = 1.5;       // dielectrics and metals: real part of the refractive index
   double index_k = 0;         // metals: imaginary part
-  int orders = 4;             // 1 to HF_MAX_ORDERS
+  /// Metals: reflectance at normal incidence, (0, 1]. With it they reflect by Schlick's term, in
+  /// place of an index, and `tint` times that at 82 degrees, [0, 1].
+  std::optional<double> f0{};
+  double tint = 1;
+  int orders = 4;  // 1 to HF_MAX_ORDERS
   std::uint64_t rays = std::uint64_t{1} << 24;
   std::uint32_t seed = 1;
   double correlation_texels = 3;  // of heights

@@ -31,8 +31,12 @@ std::string describeSettings(const SimulationSettings& s) {
                   s.model == SurfaceModel::kSmith ? "smith " : "", kKinds[static_cast<int>(s.kind)],
                   s.alpha.x, s.alpha.y, s.incidence_deg, s.azimuth_deg, s.orders, s.seed);
   if (s.model == SurfaceModel::kHeights) text += fmt::format(" l={}", s.correlation_texels);
-  if (s.kind != SurfaceKind::kDiffuse) text += fmt::format(" n={}", s.index_n);
-  if (s.kind == SurfaceKind::kMetal) text += fmt::format(" k={}", s.index_k);
+  if (s.f0) {
+    text += fmt::format(" f0={} tint={}", *s.f0, s.tint);
+  } else {
+    if (s.kind != SurfaceKind::kDiffuse) text += fmt::format(" n={}", s.index_n);
+    if (s.kind == SurfaceKind::kMetal) text += fmt::format(" k={}", s.index_k);
+  }
   if (s.last_bounce_leaves) text += " last-bounce-leaves";
   return text;
 }

@@ -59,6 +59,28 @@ Finding metals(const CheckContext& context) {
   return finding;
 }
 
+// Schlick's term with a tint: at 82 degrees it is `tint` times as much, straight on and along the
+// surface as much as without.
+Finding tintedMetals(const CheckContext& context) {
+  Finding finding(kShareError);
+  for (const auto& [f0, tint] : {std::pair{0.2, 1.0}, {0.9, 0.3}, {0.5, 0.6}}) {
+    const auto schlick = [f0 = f0](double cosine) {
+      return f0 + (1 - f0) * std::pow(1 - cosine, 5);
+    };
+    const double at_82 = 1.0 / 7;
+    for (const double cosine : {1.0, 0.6, 0.3, at_82, 0.08}) {
+      SimulationSettings s = flat(SurfaceKind::kMetal, std::acos(cosine) / kDegree, 1.5);
+      s.f0 = f0;
+      s.tint = tint;
+      // The dip's own shape, 1 at 82 degrees.
+      const double dip = cosine / at_82 * std::pow((1 - cosine) / (1 - at_82), 6);
+      finding.add(std::abs(orderEnergy(traced(context, s), 1) -
+                           (schlick(cosine) - (1 - tint) * schlick(at_82) * dip)));
+    }
+  }
+  return finding;
+}
+
 // Mean cosine and azimuth [turns] of what leaves on a side after one bounce.
 struct Leaving {
   double share = 0, cosine = 0, x = 0, y = 0;
@@ -197,6 +219,7 @@ std::vector<Check> facetChecks() {
       {"height_field/caster", "standard errors of a caster in doubles", caster},
 
       {"height_field/metals", "error of Fresnel's reflectance", metals},
+      {"height_field/tinted_metals", "error of Schlick's reflectance with a tint", tintedMetals},
       {"height_field/dielectrics", "error in units of its bound", dielectrics},
       {"height_field/diffuse", "error of Lambert's distribution", diffuseFacets},
       {"height_field/anisotropic", "relative error of the slopes' variance", anisotropicSlopes}};

@@ -15,6 +15,7 @@
 #include "host/reference/beckmann.h"
 #include "host/reference/light_cone.h"
 #include "host/reference/microfacet.h"
+#include "host/reference/rough_metal.h"
 #include "host/verify/check_groups.h"
 
 namespace glintmark {
@@ -145,7 +146,7 @@ Finding compensation(const CheckContext& context) {
       frame.lights = {coneLight({-r, 0, z})};
       KernelConfig config = shadingConfig(context, false, false);
       const glm::vec3 plain = shadePixels(context.bench, frame, config).radiance[0];
-      config.metal_compensation = true;
+      config.metal_compensation = MetalCompensation::kScaled;
       Material material;
       material.params = frame.material;
       material.compensation = Compensation::kLobe;
@@ -158,6 +159,52 @@ Finding compensation(const CheckContext& context) {
   return finding;
 }
 
+struct Rival {
+  Compensation compensation;
+  MetalCompensation program;
+  reference::MetalWay way;
+};
+
+// The ways of others and of ours to give metals their energy back, at all pairs of elevations:
+// every channel, the lobe included, over the light that comes in.
+Finding metalWay(const CheckContext& context, const Rival& rival) {
+  Finding finding(1);
+  for (const float alpha : {0.1f, 0.4f, 1.0f}) {
+    const reference::RoughMetal metal(alpha);
+    for (const double light_z : {1.0, 0.6, 0.25, 0.05})
+      for (const double z : {1.0, 0.5, 0.15}) {
+        HandMadeFrame frame = colouredFrame({alpha, alpha}, false);
+        frame.pixels = randomPixels(1, {});
+        frame.pixels[0].frame = flatFrame();
+        const double r = std::sqrt(1 - z * z), light_r = std::sqrt(1 - light_z * light_z);
+        frame.ray_origin = {-r, 0, -z};
+        const glm::dvec3 view(r, 0, z),
+            light(-light_r * std::cos(1.0), light_r * std::sin(1.0), light_z);
+        frame.lights = {coneLight(light)};
+        KernelConfig config = shadingConfig(context, false, false);
+        config.metal_compensation = rival.program;
+        Material material;
+        material.params = frame.material;
+        material.compensation = rival.compensation;
+        frame.scatter = prepareMultiscatter(material, config);
+        const glm::vec3 got = shadePixels(context.bench, frame, config).radiance[0];
+        for (int c = 0; c < 3; ++c) {
+          const double want = kIntensity * metal.brdfTimesCosine(rival.way, kF0[c], light, view);
+          finding.add(std::abs(got[c] - want) /
+                      (kMaskingTolerance * want + kCompensationTolerance * light_z));
+        }
+      }
+  }
+  return finding;
+}
+
+constexpr Rival kSeriesWay = {Compensation::kSeries, MetalCompensation::kScaled,
+                              reference::MetalWay::kSeries};
+constexpr Rival kKullaContyWay = {Compensation::kKullaConty, MetalCompensation::kKullaConty,
+                                  reference::MetalWay::kKullaConty};
+constexpr Rival kFdezAgueraWay = {Compensation::kFdezAguera, MetalCompensation::kFdezAguera,
+                                  reference::MetalWay::kFdezAguera};
+
 }  // namespace
 
 std::vector<Check> shadingChecks() {
@@ -169,7 +216,13 @@ std::vector<Check> shadingChecks() {
            [](const CheckContext& context) { return cones(context, 5); }},
           {"shading/cones_20deg", "relative error",
            [](const CheckContext& context) { return cones(context, 20); }},
-          {"shading/compensation", "error of the energy that metals get back", compensation}};
+          {"shading/compensation", "error of the energy that metals get back", compensation},
+          {"shading/compensation_series", "error in units of its bound",
+           [](const CheckContext& context) { return metalWay(context, kSeriesWay); }},
+          {"shading/compensation_kulla_conty", "error in units of its bound",
+           [](const CheckContext& context) { return metalWay(context, kKullaContyWay); }},
+          {"shading/compensation_fdez_aguera", "error in units of its bound",
+           [](const CheckContext& context) { return metalWay(context, kFdezAgueraWay); }}};
 }
 
 }  // namespace glintmark

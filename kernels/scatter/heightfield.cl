@@ -26,6 +26,7 @@
 #include "scatter/height_bounce.clh"
 #include "scatter/height_walk.clh"
 #include "scatter/outcome.clh"
+#include "wide/wide_exchange.clh"
 
 // Waiting rays that end a round of flying.
 #if WIDTH == 1
@@ -34,7 +35,8 @@
 #define SOME_WAIT (WIDTH * 5 / 8)
 #endif
 
-// Groups of lanes that fly in turn: while one waits for memory another computes.
+// Groups of lanes that fly in turn: while one waits for memory another computes. Two of them change
+// lanes where they can, until all of one wait and are served together.
 #ifndef GROUPS
 #define GROUPS (WIDTH == 1 ? 1 : 2)
 #endif
@@ -177,7 +179,7 @@ WIDE vmask bounce(Flight* f, global const uint* heights, constant const Heightfi
   const vfloat3 before = realDirection(f, run);
   *after = mirror(before, n);
   const vfloat cosine = clamp(-dot3(before, n), (vfloat)(0.0f), (vfloat)(1.0f));
-  const vfloat reflectance = fresnelMetal(cosine, run->index_n, run->index_k);
+  const vfloat reflectance = metalReflectance(cosine, run);
   ended = which & (nextRandom(&random) >= reflectance);
   *word = (int)HF_ABSORBED + f->order;
 #else
@@ -250,6 +252,58 @@ WIDE Flight makeFlight(constant const HeightfieldRun* run, uint first, uint ray_
   return f;
 }
 
+#if CAN_EXCHANGE && GROUPS == 2
+// Every lane of `waiting` that flies changes places with one of `flying` that does not, of which
+// there must be as many. Both have done the same number of steps.
+WIDE void gatherWaiting(Flight* waiting, Flight* flying) {
+  const LaneExchange e = pairLanes(waiting->flying, !flying->flying);
+  Ray *a = &waiting->ray, *b = &flying->ray;
+  exchangeInts(e, &a->x, &b->x);
+  exchangeInts(e, &a->y, &b->y);
+  exchangeFloats(e, &a->u, &b->u);
+  exchangeFloats(e, &a->v, &b->v);
+  exchangeFloats(e, &a->z, &b->z);
+  exchangeFloats(e, &a->dx, &b->dx);
+  exchangeFloats(e, &a->dy, &b->dy);
+  exchangeFloats(e, &a->dz, &b->dz);
+  exchangeFloats(e, &a->inv_dx, &b->inv_dx);
+  exchangeFloats(e, &a->inv_dy, &b->inv_dy);
+  exchangeFloats(e, &a->inv_across, &b->inv_across);
+  exchangeInts(e, &a->cone_map, &b->cone_map);
+#if REFRACTION
+  exchangeInts(e, &waiting->side, &flying->side);
+#endif
+  exchangeInts(e, &waiting->order, &flying->order);
+  exchangeInts(e, &waiting->steps, &flying->steps);
+  exchangeUints(e, &waiting->random, &flying->random);
+  exchangeUints(e, &waiting->id, &flying->id);
+  exchangeInts(e, &waiting->left, &flying->left);
+  exchangeInts(e, &waiting->flying, &flying->flying);
+  exchangeInts(e, &waiting->met, &flying->met);
+}
+
+// Flies two groups as long as every lane has a ray: whenever as many wait as a group has lanes,
+// they are brought together and served.
+WIDE void flyTogether(Flight* a, Flight* b, global const uint* heights, global const uint* cones,
+                      constant const HeightfieldRun* run, uint seed, uint ray_count,
+                      global uint* outcomes) {
+  while (a->alive_count + b->alive_count == 2 * WIDTH) {
+    int flying;
+    do {
+      fly(a, heights, cones);
+      fly(b, heights, cones);
+      flying = countLanes(a->flying) + countLanes(b->flying);
+    } while (flying > WIDTH && (a->steps_done & 1023) != 0);
+    const int together = flying <= WIDTH;
+    if (together) gatherWaiting(a, b);
+    serve(a, heights, cones, run, seed, ray_count, outcomes);
+    // Now and then in any case, so that rays that are stuck are found.
+    if (!together || (a->steps_done & 1023) == 0)
+      serve(b, heights, cones, run, seed, ray_count, outcomes);
+  }
+}
+#endif
+
 // One work-item flies WIDTH * GROUPS * run->rays_per_lane rays, as far as there are `ray_count` in
 // all. `seed`: of this launch. outcomes: for every ray the histogram word that it adds one to, then
 // WIDTH unused ones.
@@ -267,6 +321,10 @@ kernel void traceRays(global const uint* heights, global const uint* cones,
     flights[g].alive_count = countLanes(flights[g].alive);
     busy |= flights[g].alive_count;
   }
+#if CAN_EXCHANGE && GROUPS == 2
+  flyTogether(&flights[0], &flights[1], heights, cones, run, seed, ray_count, outcomes);
+  busy = flights[0].alive_count | flights[1].alive_count;
+#endif
   while (busy) {
     int ready[GROUPS], stop;
     do {

@@ -61,7 +61,9 @@ typedef struct HeightfieldRun {
   float index_k;       // and imaginary part (metals)
   uint orders;         // rays are followed to this many bounces, 1 to HF_MAX_ORDERS
   uint rays_per_lane;
-  uint padding;  // to a multiple of 16 bytes
+  float f0;         // metals of METAL_FRESNEL_TINTED: reflectance at normal incidence
+  float dip;        // and how deep it falls towards 82 degrees
+  uint padding[3];  // to a multiple of 16 bytes
 } HeightfieldRun;
 
 #endif

@@ -22,13 +22,17 @@ typedef struct MultiscatterMaterial {
   float4 scale;       // lobes: sigma of the cosine of incidence; fitted: the first four
                       // coefficients of single scattering
   float4 flattening;  // lobes: sigma_n of it; fitted: the other two
-  float compensation[MS_DEGREES];  // metals: 1 / energy of one bounce - 1, of the view's cosine
-                                   // warped by MS_WARP
-  float exponent;                  // lobes: eta - 1; EON: its roughness; fitted: what its single
-                                   // scattering loses with the sine of incidence
-  float alpha;                     // lobes: roughness of the masking factor
-  float masking;                   // lobes: importance of the masking factor, [0, 1]
-  float warp;                      // metals: MS_WARP times the roughness
+  float compensation[MS_DEGREES];  // metals, of a cosine warped by MS_WARP: what one bounce off a
+                                   // mirror loses, 1 - E; scaled lobes: 1 / E - 1
+  float schlick[MS_DEGREES];  // fdez_aguera: of the energy E, the mean of (1 - cosine)^5 on facets,
+                              // of the view's cosine
+  float4 bounced;  // metals, rgb. Scaled: how much of 1 / E - 1 the lobe gets; kulla_conty: what
+                   // (1 - E) (1 - E) is multiplied by; fdez_aguera: mean Fresnel reflectance
+  float exponent;  // lobes: eta - 1; EON: its roughness; fitted: what its single
+                   // scattering loses with the sine of incidence
+  float alpha;     // lobes: roughness of the masking factor
+  float masking;   // lobes: importance of the masking factor, [0, 1]
+  float warp;      // metals: MS_WARP times the roughness
 } MultiscatterMaterial;
 
 // Which of the taps are a cone light's: directions of equal solid angles within its cone, as float4

@@ -74,7 +74,7 @@ WIDE void meetFacet(Walk* walk, constant const HeightfieldRun* run, vmask which,
 #else
   after = mirror(walk->direction, n);
   const vfloat cosine = clamp(-dot3(walk->direction, n), (vfloat)(0.0f), (vfloat)(1.0f));
-  const vfloat reflectance = fresnelMetal(cosine, run->index_n, run->index_k);
+  const vfloat reflectance = metalReflectance(cosine, run);
   *absorbed = which & (nextRandom(&random) >= reflectance);
   *word = (int)HF_ABSORBED + walk->order;
 #endif

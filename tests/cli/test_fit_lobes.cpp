@@ -67,5 +67,20 @@ TEST(FitLobes, WritesTablesPicturesAndData) {
   EXPECT_GT(readImage(folder / "out/lobe_residuals.png").width, 100);
 }
 
+TEST(FitDielectric, WritesItsTables) {
+  const TempFolder folder;
+  const ProcessResult result =
+      runGlintmark({"fit", "dielectric", "--rays", "2000", "-o", folder / "out", "--picture",
+                    folder / "lobes.png", "--quiet"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("n 1.5: alpha"), std::string::npos) << result.out;
+  const std::string csv = readFile(folder / "out/dielectric_lobes.csv");
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 5 * 5 * 2 * 4);
+  EXPECT_GT(readImage(folder / "lobes.png").width, 400);
+  const ProcessResult air = runGlintmark({"fit", "dielectric", "--ior", "1", "--quiet"});
+  EXPECT_EQ(air.exit_code, 2);
+  EXPECT_NE(air.err.find("is that of air"), std::string::npos) << air.err;
+}
+
 }  // namespace
 }  // namespace glintmark

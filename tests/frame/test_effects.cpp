@@ -156,7 +156,7 @@ const std::vector<std::pair<Effect, std::vector<std::string>>>& effectFunctions(
       {Effect::kLtc, {"shadeAreaLights", "lookUpLtc", "seeLight", "loadLitPoint"}},
       {Effect::kMultiscale, {"footprintAlpha", "fetchMeanNormal"}},
       {Effect::kMultiscatter, {"addScattered", "scatterLight", "scatterView", "light_taps"}},
-      {Effect::kCompensation, {"compensate"}}};
+      {Effect::kCompensation, {"compensationGain"}}};
   return functions;
 }
 
@@ -299,7 +299,7 @@ TEST(Specialisation, AreaLightsAloneOnRoughAndCompensatedMaterials) {
   renderer.shade();
   for (const KernelConfig& config : renderer.configs()) {
     EXPECT_EQ(config.multiscatter, Multiscatter::kOff);
-    EXPECT_FALSE(config.metal_compensation);
+    EXPECT_EQ(config.metal_compensation, MetalCompensation::kOff);
   }
 }
 

@@ -95,7 +95,7 @@ TEST(MultiscatterShading, WhatIsOffLeavesNoSwitchOn) {
   renderer.prepare();
   ASSERT_EQ(renderer.configs().size(), 1u);
   EXPECT_EQ(renderer.configs().front().multiscatter, Multiscatter::kOff);
-  EXPECT_FALSE(renderer.configs().front().metal_compensation);
+  EXPECT_EQ(renderer.configs().front().metal_compensation, MetalCompensation::kOff);
 }
 
 }  // namespace

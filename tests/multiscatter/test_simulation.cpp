@@ -175,6 +175,16 @@ TEST(Simulation, BadSettingsAreNamed) {
   EXPECT_NE(errorOf(s).find("index of refraction"), std::string::npos);
   s.index_n = NAN;
   EXPECT_NE(errorOf(s), "");
+  s = {};
+  s.f0 = 0.5;
+  EXPECT_NE(errorOf(s).find("f0 is of metals"), std::string::npos);
+  s.kind = SurfaceKind::kMetal;
+  EXPECT_EQ(errorOf(s), "");
+  s.tint = 2;
+  EXPECT_NE(errorOf(s).find("tint 2 is out of range"), std::string::npos);
+  s.tint = 0.5;
+  s.f0.reset();
+  EXPECT_NE(errorOf(s).find("a tint is of metals"), std::string::npos);
   EXPECT_THROW(makeSurfaceSpectrum(0.5), Error);
 }
 

@@ -39,7 +39,8 @@ TEST(KernelConfig, OtherValuesAreWrittenAsEver) {
   config.method = GlintMethod::kExact;
   config.ka = 64;
   config.ggx = config.normal_map = config.half_texels = config.ltc = config.clipless = true;
-  config.light_texture = config.lobe_masking = config.metal_compensation = true;
+  config.light_texture = config.lobe_masking = true;
+  config.metal_compensation = MetalCompensation::kScaled;
   config.normal_method = NormalMethod::kGmm;
   config.lobes = 8;
   config.anisotropy = 16;
@@ -119,7 +120,8 @@ TEST(KernelConfig, DifferentConfigsGiveDifferentOptions) {
     config.ltc = bits & 1024;
     config.clipless = bits & 2048;
     config.light_texture = bits & 4096;
-    config.metal_compensation = bits & 8192;
+    config.metal_compensation =
+        bits & 8192 ? MetalCompensation::kKullaConty : MetalCompensation::kOff;
     config.all_materials = bits & 16384;
     seen.insert(buildOptions(config));
   }

@@ -38,8 +38,8 @@ KernelConfig everythingOn(int lanes) {
   config.width = lanes;
   config.all_materials = config.groove = config.glint_colour = config.light_cone = true;
   config.diffuse = config.count_cells = config.normal_map = config.ltc = true;
-  config.light_shapes = config.light_texture = config.lobe_masking = config.metal_compensation =
-      true;
+  config.light_shapes = config.light_texture = config.lobe_masking = true;
+  config.metal_compensation = MetalCompensation::kScaled;
   config.multiscatter = Multiscatter::kRefit;
   config.ltc_method = LtcMethod::kTao21;
   config.normal_method = NormalMethod::kGmm;

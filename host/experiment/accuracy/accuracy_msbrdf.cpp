@@ -42,7 +42,7 @@ constexpr Model kModels[] = {{"lambert", DiffuseModel::kLambert},
                              {"refit", DiffuseModel::kRefit},
                              {"eon", DiffuseModel::kEon},
                              {"fitted", DiffuseModel::kFitted}};
-constexpr DiffuseModel kDefaultModel = DiffuseModel::kEon;  // of the scenes
+constexpr DiffuseModel kDefaultModel = DiffuseModel::kFitted;  // of the scenes
 
 struct RayCount {
   const char* name;

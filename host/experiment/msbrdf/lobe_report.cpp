@@ -41,17 +41,6 @@ std::function<double(double, double)> freeModel(const FittedLobe& fitted) {
   };
 }
 
-// Value of the cell that holds a direction.
-double cellAt(const LobeData& data, double cosine, double azimuth) {
-  const double folded = azimuth > kPi ? 2 * kPi - azimuth : azimuth;
-  const int row =
-      std::clamp(static_cast<int>((1 - cosine) * LobeData::kCosines), 0, LobeData::kCosines - 1);
-  const int column =
-      std::clamp(static_cast<int>(folded / kPi * LobeData::kAzimuths), 0, LobeData::kAzimuths - 1);
-  const int cell = row * LobeData::kAzimuths + column;
-  return data.energy[static_cast<std::size_t>(cell)];
-}
-
 std::string fixed(double value) {
   return fmt::format("{:.4f}", value);
 }
@@ -269,7 +258,7 @@ Image residualDiscs(const LobeFits& fits) {
     if (!shown) continue;
     const double most = *std::ranges::max_element(f.data.energy);
     const auto cell = [&f](double cosine, double azimuth) {
-      return cellAt(f.data, cosine, azimuth);
+      return cellEnergy(f.data, cosine, azimuth);
     };
     discs.push_back({fmt::format("simulated {:.3f}", f.data.alpha), cell, most});
     const auto residual = [&](const char* name, auto model) {

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "host/experiment/all_tables.h"
+#include "host/experiment/msbrdf/metal_models.h"
 #include "host/experiment/msbrdf/msbrdf_cases.h"
 #include "host/experiment/msbrdf/msbrdf_table.h"
 #include "host/experiment/summary_table.h"
@@ -28,6 +29,18 @@ std::vector<std::string> energyCases() {
   return cases;
 }
 
+std::vector<std::string> conductorCases() {
+  std::vector<std::string> cases;
+  for (const double alpha : kConductorAlphas)
+    for (const Conductor& metal : conductors())
+      for (const char* model : {kHeightsModel, kSmithModel})
+        for (const int theta_deg : kConductorThetas_deg)
+          cases.push_back(CaseName{{kConductorKind, metal.name, model},
+                                   {{kAlphaKnob, alpha}, {kThetaKnob, theta_deg}}}
+                              .text());
+  return cases;
+}
+
 void measure(BenchRun& run) {
   const std::string& table = msbrdfSpec().name;
   const auto bind = [&run](std::vector<Record> (*measure_case)(BenchRun&, const std::string&)) {
@@ -43,6 +56,8 @@ void measure(BenchRun& run) {
   run.measureCases(table, alphaCases(kMetalKind),
                    {"furnace_before", "furnace_after", "furnace_after_simulated"},
                    bind(measureMetal));
+  run.measureCases(table, conductorCases(), {"albedo_error_lobe", "lobe_error_lobe"},
+                   bind(measureConductor));
   run.measureCases(table, {kAllCase}, {"runtime_ms", "speedup_vs_w1", "fit_ms", "normalised_cost"},
                    [&run](const std::string&) { return measureMsbrdfCost(run); });
   if (!allRanks().isFirst()) return;

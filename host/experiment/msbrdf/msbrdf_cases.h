@@ -17,6 +17,9 @@ inline constexpr double kMsbrdfAlphas[] = {0.1, 0.24, 0.43, 0.62, 0.8, 1.0};
 inline constexpr int kMsbrdfThetas_deg[] = {0, 30, 60, 80};
 inline constexpr std::uint64_t kMsbrdfSurfaceRays = std::uint64_t{1} << 22;
 inline constexpr std::uint64_t kMsbrdfModelRays = std::uint64_t{1} << 20;
+inline constexpr double kConductorAlphas[] = {0.24, 0.43, 0.8};
+inline constexpr int kConductorThetas_deg[] = {0, 45, 75};
+inline constexpr std::uint64_t kConductorRays = std::uint64_t{1} << 19;  // a channel
 
 /// Records of one case.
 class MsbrdfCase {
@@ -49,6 +52,9 @@ std::vector<Record> measureModel(BenchRun& run, const std::string& name);
 std::vector<Record> measureEnergy(BenchRun& run, const std::string& name);
 /// metal/alpha=A: white furnace of the kernels' specular lobe without and with compensation.
 std::vector<Record> measureMetal(BenchRun& run, const std::string& name);
+/// conductor/METAL/MODEL/alpha=A/theta=T: the ways of compensation against a coloured metal's
+/// simulation; samples are channels.
+std::vector<Record> measureConductor(BenchRun& run, const std::string& name);
 /// all: cost.
 std::vector<Record> measureMsbrdfCost(BenchRun& run);
 

@@ -82,13 +82,15 @@ void addRuntimes(BenchRun& run, const Scene& scene, MsbrdfCase& result) {
         material.diffuse_masking = 0.5;
       },
       "refit with masking and shadowing");
-  add(
-      "runtime_compensation_ms",
-      [](Material& material) {
-        setLambert(material);
-        material.compensation = Compensation::kLobe;
-      },
-      "a metal's albedo scaling alone");
+  const auto metal = [](Compensation way) {
+    return [way](Material& material) {
+      setLambert(material);
+      material.compensation = way;
+    };
+  };
+  add("runtime_compensation_ms", metal(Compensation::kLobe), "a metal's albedo scaling alone");
+  add("runtime_kulla_conty_ms", metal(Compensation::kKullaConty), "a lobe beside the metal's");
+  add("runtime_fdez_aguera_ms", metal(Compensation::kFdezAguera), "a lobe beside the metal's");
 }
 
 // One lane's time over that of all lanes; valid if both give the same bits.

@@ -17,7 +17,10 @@ const TableSpec& msbrdfSpec();
 
 /// Kinds of cases, the first word of their names; knobs follow, kAlphaKnob first.
 inline constexpr const char *kSurfaceKind = "surface", *kModelKind = "model",
-                            *kEnergyKind = "energy", *kMetalKind = "metal";
+                            *kEnergyKind = "energy", *kMetalKind = "metal",
+                            *kConductorKind = "conductor";
+/// What a conductor's facets are, the third word of its cases.
+inline constexpr const char *kHeightsModel = "heights", *kSmithModel = "smith";
 inline constexpr const char *kAlphaKnob = "alpha", *kThetaKnob = "theta";
 
 /// Files of the run's folder.

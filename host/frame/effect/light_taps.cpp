@@ -6,7 +6,9 @@
 #include <numbers>
 
 #include "host/core/float4.h"
+#include "host/frame/effect/light_tree.h"
 #include "host/frame/effect/lights.h"
+#include "host/ocl/upload.h"
 
 namespace glintmark {
 namespace {
@@ -45,6 +47,28 @@ PreparedTaps prepareTaps(std::span<const ConeLight> lights) {
     appendTaps(cone, count, taps.directions);
   }
   return taps;
+}
+
+namespace {
+
+struct TapBuffers {
+  Buffer lights, directions;
+};
+
+TapBuffers uploadTaps(FrameResources& frame) {
+  const bool cuts = frame.options.light_cut != LightCut::kAll;
+  const PreparedTaps taps =
+      prepareTaps(cuts ? lightTree(frame.scene.lights).lights : frame.scene.lights);
+  return {upload(frame.device, taps.lights, BufferPurpose::kLightTaps),
+          upload(frame.device, taps.directions, BufferPurpose::kTaps)};
+}
+
+}  // namespace
+
+void addLightTaps(FrameResources& frame, ShadeArguments& arguments) {
+  const auto& taps = frame.kept<TapBuffers>([&] { return uploadTaps(frame); });
+  arguments.add("light_taps", taps.lights);
+  arguments.add("taps", taps.directions);
 }
 
 }  // namespace glintmark

@@ -6,6 +6,8 @@
 
 #include "host/core/shared_types.h"
 #include "host/fit/multiscatter_types.h"
+#include "host/frame/frame_resources.h"
+#include "host/frame/shade_arguments.h"
 
 namespace glintmark {
 
@@ -24,5 +26,8 @@ struct PreparedTaps {
 /// Taps of all lights, one light's after another's. Directions of lights need not be unit;
 /// half-angles are in [0, pi/2].
 PreparedTaps prepareTaps(std::span<const ConeLight> lights);
+
+/// Adds the arguments `light_taps` and `taps` of a program that reads them.
+void addLightTaps(FrameResources& frame, ShadeArguments& arguments);
 
 }  // namespace glintmark

@@ -2,10 +2,8 @@
 #include <algorithm>
 
 #include "host/frame/effect/light_taps.h"
-#include "host/frame/effect/light_tree.h"
 #include "host/frame/effect/scattering_params.h"
 #include "host/frame/effect_module.h"
-#include "host/ocl/upload.h"
 
 namespace glintmark {
 namespace {
@@ -37,24 +35,10 @@ void chooseMultiscatterForAll(std::span<const KernelConfig> own, const ShadingOp
   all.lobe_masking = hasLobes(all);
 }
 
-struct TapBuffers {
-  Buffer lights, directions;
-};
-
-TapBuffers uploadTaps(FrameResources& frame) {
-  const bool cuts = frame.options.light_cut != LightCut::kAll;
-  const PreparedTaps taps =
-      prepareTaps(cuts ? lightTree(frame.scene.lights).lights : frame.scene.lights);
-  return {upload(frame.device, taps.lights, BufferPurpose::kLightTaps),
-          upload(frame.device, taps.directions, BufferPurpose::kTaps)};
-}
-
 void addMultiscatterArguments(FrameResources& frame, const Material& material,
                               const KernelConfig& config, ShadeArguments& arguments) {
   addScattering(frame, material, config, arguments);
-  const auto& taps = frame.kept<TapBuffers>([&] { return uploadTaps(frame); });
-  arguments.add("light_taps", taps.lights);
-  arguments.add("taps", taps.directions);
+  addLightTaps(frame, arguments);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "host/core/angles.h"
 #include "host/frame/chebyshev.h"
 #include "host/frame/effects.h"
+#include "host/frame/specular_albedo.h"
 #include "host/ocl/upload.h"
 
 namespace glintmark {
@@ -80,22 +81,81 @@ void prepareFitted(const MaterialParams& material, const FirstOrder& c, Multisca
       [&](double mu) { return 1 - model.albedo(mu) + sine * std::sqrt(1 - mu * mu); }, out.share);
 }
 
-// Metals: what one bounce leaves out, over what it reflects. [Turquin19] Eq. 16
-void prepareCompensation(const Material& material, const MirrorAlbedo& mirror,
-                         MultiscatterMaterial& out) {
+// Energy that a white mirror of a material's lobe reflects by one bounce, of a warped cosine.
+class BounceEnergy {
+ public:
+  BounceEnergy(const Material& material, const MirrorAlbedo& mirror, double alpha)
+      : material_(material), mirror_(mirror), alpha_(alpha) {}
+
+  double at(double t) const {
+    if (material_.ggx)
+      return specularAlbedo(reference::Ndf::kGgx, MirrorAlbedo::cosine(alpha_, t), alpha_).mirror;
+    const double lobe = mirror_.at(mirror_.lobe, alpha_, t);
+    // Never more than the lobe lacks, whatever the noise of a simulation.
+    return material_.compensation == Compensation::kSimulated
+               ? std::max(mirror_.at(mirror_.simulated, alpha_, t), lobe)
+               : lobe;
+  }
+  // Over a white furnace.
+  double mean() const {
+    constexpr int kSteps = 256;
+    double sum = 0;
+    for (int i = 0; i < kSteps; ++i) {
+      const double mu = (i + 0.5) / kSteps;
+      sum += 2 * mu * at(MirrorAlbedo::warp(alpha_, mu)) / kSteps;
+    }
+    return std::min(sum, 1.0);
+  }
+
+ private:
+  const Material& material_;
+  const MirrorAlbedo& mirror_;
+  double alpha_;
+};
+
+// Mean of Schlick's reflectance over a hemisphere of cosine-weighted directions.
+double meanReflectance(double f0) {
+  return f0 + (1 - f0) / 21;
+}
+
+// What light that has met two facets or more keeps of its colour, over what it would at a
+// reflectance of 1: F^2 + F^3 q + F^4 q^2 ... times 1 - q, of which every further bounce has the
+// share q. [Kulla and Conty 2017]
+double seriesColour(double reflectance, double q) {
+  return reflectance * reflectance * (1 - q) / std::max(1 - reflectance * q, kLeastRoom);
+}
+
+// What the kernels multiply what is lost by.
+double bouncedColour(Compensation compensation, double f0, double mean_energy) {
+  const double reflectance = meanReflectance(f0), q = 1 - mean_energy;
+  if (compensation == Compensation::kSeries) return seriesColour(reflectance, q) / reflectance;
+  if (compensation == Compensation::kKullaConty)
+    return seriesColour(reflectance, q) / (kPi * std::max(q, kLeastRoom));
+  return compensation == Compensation::kFdezAguera ? reflectance : f0;
+}
+
+// Metals: what one bounce leaves out.
+void prepareCompensation(const Material& material, const KernelConfig& config,
+                         const MirrorAlbedo& mirror, MultiscatterMaterial& out) {
   const double alpha = std::sqrt(static_cast<double>(material.params.surface.alpha_g.x) *
                                  material.params.surface.alpha_g.y);
+  const BounceEnergy energy(material, mirror, alpha);
+  const bool scaled = config.metal_compensation == MetalCompensation::kScaled;
   out.warp = static_cast<float>(MS_WARP * alpha);
   interpolateAtChebyshevPoints(
-      [&](double t) {
-        // Never more than the lobe lacks, whatever the noise of a simulation.
-        const double lobe = mirror.at(mirror.lobe, alpha, t);
-        const double energy = material.compensation == Compensation::kSimulated
-                                  ? std::max(mirror.at(mirror.simulated, alpha, t), lobe)
-                                  : lobe;
-        return 1 / energy - 1;
+      [&](double t) { return scaled ? 1 / energy.at(t) - 1 : 1 - energy.at(t); }, out.compensation);
+  const double mean = energy.mean();
+  out.bounced = mapColour(material.params.surface.f0, [&](double f0) {
+    return bouncedColour(material.compensation, f0, mean);
+  });
+  if (config.metal_compensation != MetalCompensation::kFdezAguera) return;
+  const reference::Ndf ndf = material.ggx ? reference::Ndf::kGgx : reference::Ndf::kBeckmann;
+  interpolateAtChebyshevPoints(
+      [&](double mu) {
+        const SplitAlbedo albedo = specularAlbedo(ndf, mu, alpha);
+        return albedo.schlick / albedo.mirror;
       },
-      out.compensation);
+      out.schlick);
 }
 
 }  // namespace
@@ -113,7 +173,8 @@ MultiscatterMaterial prepareMultiscatter(const Material& material, const KernelC
     prepareEon(material.params, fits().eon.at(alpha), out);
   if (config.multiscatter == Multiscatter::kFitted)
     prepareFitted(material.params, fits().fitted.at(alpha), out);
-  if (config.metal_compensation) prepareCompensation(material, fits().mirror, out);
+  if (config.metal_compensation != MetalCompensation::kOff)
+    prepareCompensation(material, config, fits().mirror, out);
   return out;
 }
 
