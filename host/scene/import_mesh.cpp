@@ -9,6 +9,7 @@
 #include "host/scene/import/read_obj.h"
 #include "host/scene/import/read_other.h"
 #include "host/scene/import/read_ply.h"
+#include "host/scene/import/read_stl.h"
 
 namespace glintmark {
 namespace {
@@ -20,6 +21,7 @@ MeshSource readMeshFile(const std::filesystem::path& file, const ImportOptions& 
   const std::string name = file.string();
   if (extension == ".obj") return readObj(readFile(file), name);
   if (extension == ".ply") return readPly(readFile(file), name);
+  if (extension == ".stl") return readStl(file);
   if (extension == ".gltf" || extension == ".glb" || extension == ".vrm")
     return readGltf(file, options.wants_materials);
   return readOther(file);

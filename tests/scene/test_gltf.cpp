@@ -176,7 +176,7 @@ TEST(Gltf, ContainersAndUris) {
   };
   expectMessage(complaint("gone.bin"), {"gone.bin", "not there"});
   expectMessage(complaint("https://example.org/a.bin"), {"https://example.org", "beside it"});
-  expectMessage(complaint("data:;base64,AAAA"), {"has 3 bytes", "byteLength"});
+  expectMessage(complaint("data:;base64,AAAA"), {"does not fit its buffer of 3 bytes"});
   expectMessage(complaint("data:;base64,A!AA"), {"not base64"});
 }
 
@@ -301,6 +301,47 @@ TEST(Gltf, WhatIsWrongIsSaid) {
     const std::string file = folder.write("bad.gltf", text);
     expectMessage(errorOf([&] { importMesh(file); }), {"bad.gltf"});
   }
+}
+
+TEST(Gltf, WhatOnlyAnExtensionCouldReadIsRefusedByItsName) {
+  const TemporaryFolder folder;
+  GltfText draco = quadText();
+  draco.primitive()["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", 0}};
+  EXPECT_EQ(importMesh(draco.write(folder)).mesh.triangleCount(), 2u);  // stored plainly as well
+  draco.json["accessors"][0].erase("bufferView");
+  expectMessage(errorOf([&] { importMesh(draco.write(folder)); }), {"KHR_draco_mesh_compression"});
+  GltfText meshopt = quadText();
+  const std::string file = meshopt.write(folder);
+  meshopt.json["buffers"].push_back(
+      {{"byteLength", 1000}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}});
+  meshopt.json["bufferViews"][0]["buffer"] = 1;
+  folder.write("mesh.gltf", meshopt.json.dump());
+  expectMessage(errorOf([&] { importMesh(file); }), {"EXT_meshopt_compression"});
+  // In a container only the first buffer is the container's.
+  GltfText second = quadText();
+  std::string glb = second.glb();
+  second.json["buffers"].push_back({{"byteLength", 48}});
+  second.json["bufferViews"][0]["buffer"] = 1;
+  std::string text = second.json.dump();
+  while (text.size() % 4 != 0) text += ' ';
+  const auto word = [](std::size_t value) {
+    return rawBytes(std::vector<std::uint32_t>{static_cast<std::uint32_t>(value)});
+  };
+  glb = "glTF" + word(2) + word(28 + text.size() + second.bytes.size()) + word(text.size()) +
+        "JSON" + text + word(second.bytes.size()) + std::string("BIN\0", 4) + second.bytes;
+  expectMessage(errorOf([&] { importMesh(folder.write("mesh.glb", glb)); }),
+                {"buffer 1 has neither a uri nor bytes"});
+}
+
+TEST(Gltf, SmallSlipsOfWritersAreForgiven) {
+  const TemporaryFolder folder;
+  GltfText text = quadText();
+  text.json["asset"]["version"] = 2.0;
+  text.json["extensionsRequired"] = {"KHR_technique_webgl"};
+  const std::string file = text.write(folder);
+  text.json["buffers"][0]["byteLength"] = 100000;
+  folder.write("mesh.gltf", text.json.dump());
+  EXPECT_EQ(importMesh(file).mesh.triangleCount(), 2u);
 }
 
 TEST(Gltf, MaterialsBecomeOursWhereTheSceneAsks) {

@@ -147,6 +147,14 @@ TEST(Obj, SmoothingGroups) {
   }
 }
 
+TEST(Obj, ListsThatAreLeftOutAreNotNamed) {
+  const PartMesh mesh = obj("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1/7/8 2/7/8 3/7/8\n");
+  EXPECT_EQ(mesh.mesh.normals[0], glm::vec3(0, 0, 1));
+  ASSERT_GE(mesh.notes.size(), 2u);
+  expectMessage(mesh.notes[0], {"name uvs, of which it has none"});
+  expectMessage(mesh.notes[1], {"name normals, of which it has none"});
+}
+
 TEST(Obj, WhatIsWrongIsSaidWithItsLine) {
   const std::string base = std::string(kObjSquare) + kObjUvs;
   expectMessage(objError(base + "f 1 0 2\n"), {"mesh.obj:9", "index out of range"});

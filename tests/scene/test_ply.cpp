@@ -113,6 +113,14 @@ TEST(Ply, ListsAmongTheNumbersOfAVertex) {
       {"no property x"});
 }
 
+TEST(Ply, TextsMayHoldMoreThanTheirHeaderSays) {
+  const TriangleMesh mesh = ply(kTextHead + "Created by hand\n" + kVertices + kFaces +
+                                "end_header\n0 0 0 9\n1 0 0\n0\n1 0 5 5\n3 0 1 2 6 1 1 1\n")
+                                .mesh;
+  ASSERT_EQ(mesh.positions.size(), 3u);
+  EXPECT_EQ(mesh.positions[2], glm::vec3(0, 1, 0));
+}
+
 TEST(Ply, WhatIsWrongIsSaid) {
   expectMessage(plyError(kTextHead + "element vertex 9\nproperty float x\nend_header\n0\n1"),
                 {"mesh.ply", "ends before the elements"});
@@ -121,7 +129,7 @@ TEST(Ply, WhatIsWrongIsSaid) {
     expectMessage(plyError(text), {"no whole PLY header"});
   for (const char* text : {"", "plz\nend_header\n"})
     expectMessage(plyError(text), {"begin with 'ply'"});
-  expectMessage(plyError("ply\nelement vertex 1\nend%_header\n"), {"begins with 'end%_header'"});
+  expectMessage(plyError("ply\nelement vertex 1\nend%_header\n"), {"no whole PLY header"});
   expectMessage(plyError(kTextHead + "element vertex 1\nproperty quad x\n"), {"type 'quad'"});
   expectMessage(plyError(kTextHead + "element vertex 1\nproperty float x\nend_header\n1\n"),
                 {"no property y"});

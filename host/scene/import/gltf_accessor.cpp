@@ -91,6 +91,7 @@ GltfAccessor::GltfAccessor(GltfDocument& document, const GltfDocument::Json& ref
     bytes_ = document.view(*view);
     stride_ = document.whole(description, "byteStride", stride_);
   }
+  is_stored_ = view != accessor.end() || accessor.contains("sparse");
   if (stride_ == 0) stride_ = elementBytes();
   if (view != accessor.end()) {
     checkFit(bytes_, begin, count_, stride_, elementBytes(), name_);

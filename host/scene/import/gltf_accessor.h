@@ -19,6 +19,8 @@ class GltfAccessor {
 
   std::size_t count() const { return count_; }
   int components() const { return components_; }
+  /// False where the file holds none of its elements, which are zeros then.
+  bool isStored() const { return is_stored_; }
   /// Component `c` of element `i` as the format defines it: signed normalised numbers in [-1, 1].
   double at(std::size_t i, int c) const;
   /// Element `i` of whole numbers of at least 0. Throws Error for other component types.
@@ -34,7 +36,7 @@ class GltfAccessor {
   std::string own_;  // where values were placed among those of the view, or there is none
   std::size_t count_ = 0, stride_ = 0;
   int components_ = 1, type_ = 0;
-  bool normalised_ = false;
+  bool normalised_ = false, is_stored_ = false;
 };
 
 }  // namespace glintmark

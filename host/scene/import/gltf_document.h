@@ -25,6 +25,8 @@ class GltfDocument {
   int version() const { return version_; }
   const std::string& source() const { return source_; }
   [[noreturn]] void fail(const std::string& reason) const;
+  /// Fails for data that only an extension could read.
+  [[noreturn]] void failToDecode(const std::string& extension) const;
 
   /// The object of a collection ("accessors") that `reference` names.
   const Json& object(const char* collection, const Json& reference) const;

@@ -14,6 +14,7 @@ namespace {
 using Json = GltfDocument::Json;
 
 constexpr std::uint64_t kTriangles = 4, kStrip = 5, kFan = 6;
+constexpr char kDraco[] = "KHR_draco_mesh_compression";
 constexpr std::size_t kBytesPerVertex = 200;  // here and in what follows
 
 /// Turns normals as the matrix turns planes: its cofactors, which singular matrices have too. The
@@ -75,6 +76,7 @@ void GltfPrimitives::add(const Json& primitive, const glm::dmat4& transform,
   const std::size_t first_triangle = out_.triangles.size();
   positions_.clear();
   normals_.clear();
+  compressed_ = GltfDocument::extension(primitive, kDraco) != nullptr;
   addVertices(*attributes, uv);
   if (weights != nullptr && weights->is_array() && primitive.contains("targets"))
     morph(primitive, *weights);
@@ -91,6 +93,7 @@ void GltfPrimitives::add(const Json& primitive, const glm::dmat4& transform,
 
 void GltfPrimitives::addVertices(const Json& attributes, const GltfUv& uv) {
   const GltfAccessor positions(document_, attributes["POSITION"]);
+  if (compressed_ && !positions.isStored()) document_.failToDecode(kDraco);
   const std::size_t count = positions.count();
   requireMemory(count * kBytesPerVertex, document_.source());
   if (out_.positions.size() + count > 0xFFFFFFF0u)

@@ -45,6 +45,7 @@ class GltfPrimitives {
   std::vector<glm::dvec3> normals_;
   std::vector<bool> mirrored_;  // by its transform; one for all, or one per vertex
   std::size_t first_vertex_ = 0;
+  bool compressed_ = false;
 };
 
 }  // namespace glintmark

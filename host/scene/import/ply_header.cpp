@@ -12,6 +12,13 @@
 namespace glintmark {
 namespace {
 
+std::string printable(std::string_view word) {
+  std::string text(word.substr(0, 40));
+  std::ranges::replace_if(
+      text, [](char c) { return c < ' '; }, '?');
+  return text;
+}
+
 [[noreturn]] void fail(const std::string& source, const std::string& reason) {
   throw Error(fmt::format("{}: cannot be read as a mesh: {}", source, reason));
 }
@@ -26,8 +33,8 @@ PlyType typeOf(std::string_view word, const std::string& source) {
       {"float64", PlyType::kDouble}};
   for (const auto& [name, type] : kNames)
     if (name == word) return type;
-  fail(source,
-       fmt::format("a property of its header has the type '{}', which PLY does not know", word));
+  fail(source, fmt::format("a property of its header has the type '{}', which PLY does not know",
+                           printable(word)));
 }
 
 PlyFormat formatOf(std::string_view word, const std::string& source) {
@@ -36,7 +43,7 @@ PlyFormat formatOf(std::string_view word, const std::string& source) {
   if (word == "binary_big_endian") return PlyFormat::kBigEndian;
   fail(source, fmt::format("its format is '{}', expected ascii, binary_little_endian or "
                            "binary_big_endian",
-                           word));
+                           printable(word)));
 }
 
 void addElement(PlyHeader& header, std::string_view line, const std::string& source) {
@@ -45,7 +52,7 @@ void addElement(PlyHeader& header, std::string_view line, const std::string& sou
   const std::string_view word = takeWord(line);
   const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), element.count);
   if (error != std::errc() || stop != word.data() + word.size())
-    fail(source, fmt::format("element {} has no count", element.name));
+    fail(source, fmt::format("element {} has no count", printable(element.name)));
   header.elements.push_back(std::move(element));
 }
 
@@ -114,10 +121,8 @@ PlyHeader readPlyHeader(std::string_view text, const std::string& source) {
       header.bytes = text.size() - lines.rest().size();
       checkSize(header, text.size(), source);
       return header;
-    } else if (!key.empty() && key != "comment" && key != "obj_info") {
-      fail(source, fmt::format("its header has a line that begins with '{}'",
-                               key.substr(0, std::min<std::size_t>(key.size(), 40))));
     }
+    // Beside comment and obj_info, remarks stand there that nothing announces.
   }
   fail(source, "it has no whole PLY header");
 }

@@ -48,6 +48,11 @@ std::size_t PlyNumbers::nextCount(const PlyProperty& list) {
   return static_cast<std::size_t>(count);
 }
 
+void PlyNumbers::endElement() {
+  if (format_ == PlyFormat::kText)
+    rest_.remove_prefix(std::min(rest_.find_first_of("\r\n"), rest_.size()));
+}
+
 double PlyNumbers::nextWord() {
   std::size_t begin = 0;
   while (begin < rest_.size() && isSpace(rest_[begin])) ++begin;

@@ -18,6 +18,8 @@ class PlyNumbers {
   double next(PlyType type);
   /// The next number of elements of a list. Throws Error also if the file is too short for them.
   std::size_t nextCount(const PlyProperty& list);
+  /// Leaves what an element's line holds beyond its numbers, in texts.
+  void endElement();
 
  private:
   double nextWord();

@@ -5,10 +5,12 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 #include <unordered_map>
 
 #include "host/core/error.h"
+#include "host/scene/import/distinct_values.h"
 #include "host/scene/import/mesh_source.h"
 #include "host/scene/import/text_scanner.h"
 #include "host/scene/import/triangulate.h"
@@ -26,6 +28,10 @@ struct Corner {
   std::uint32_t group = 1;  // smoothing group; of flat faces: kNoIndex less the face's number
 
   bool operator==(const Corner&) const = default;
+  std::uint64_t hash() const {
+    return mixedHash(mixedHash(0, static_cast<std::uint64_t>(position) << 32 | uv),
+                     static_cast<std::uint64_t>(normal) << 32 | group);
+  }
 };
 
 class ObjReader {
@@ -189,30 +195,7 @@ class ObjReader {
     if (wanted.normal != kNoIndex && (last_normal_ == kNoIndex || wanted.normal > last_normal_))
       last_normal_ = wanted.normal;
     if (corners_.size() >= kMostVertices) fail("the mesh has more vertices than 4294967279");
-    if (slots_.size() < corners_.size() + corners_.size() / 2 + 1) growTable();
-    std::uint32_t& slot = slots_[slotOf(wanted)];
-    if (slot == kNoIndex) {
-      slot = static_cast<std::uint32_t>(corners_.size());
-      corners_.push_back(wanted);
-    }
-    return slot;
-  }
-
-  /// Where a corner like `wanted` stands in the table, or could.
-  std::size_t slotOf(const Corner& wanted) const {
-    const std::uint64_t hash =
-        mixedHash(mixedHash(0, static_cast<std::uint64_t>(wanted.position) << 32 | wanted.uv),
-                  static_cast<std::uint64_t>(wanted.normal) << 32 | wanted.group);
-    const std::size_t mask = slots_.size() - 1;
-    std::size_t at = hash & mask;
-    while (slots_[at] != kNoIndex && corners_[slots_[at]] != wanted) at = (at + 1) & mask;
-    return at;
-  }
-
-  void growTable() {
-    slots_.assign(std::max<std::size_t>(2 * slots_.size(), 1024), kNoIndex);
-    for (std::size_t i = 0; i < corners_.size(); ++i)
-      slots_[slotOf(corners_[i])] = static_cast<std::uint32_t>(i);
+    return corners_.add(wanted);
   }
 
   void checkReferences() const {
@@ -221,22 +204,32 @@ class ObjReader {
       throw Error(fmt::format("{}: a face names {} {}, an index out of range: the file has {}",
                               source_, what, last + std::size_t{1}, count));
     };
-    if (!corners_.empty()) check(last_position_, positions_.size(), "vertex");
-    check(last_uv_, uvs_.size(), "uv");
-    check(last_normal_, normals_.size(), "normal");
+    if (corners_.size() > 0) check(last_position_, positions_.size(), "vertex");
+    // Programs write the numbers of lists that they leave out.
+    if (!uvs_.empty()) check(last_uv_, uvs_.size(), "uv");
+    if (!normals_.empty()) check(last_normal_, normals_.size(), "normal");
   }
 
   void fillVertices() {
-    const std::size_t count = corners_.size();
-    slots_ = {};
+    const auto note = [&](bool wrong, const char* what) {
+      if (wrong)
+        out_.notes.push_back(fmt::format("faces of {} name {}, of which it has none",
+                                         std::filesystem::path(source_).filename().string(), what));
+    };
+    note(uvs_.empty() && last_uv_ != kNoIndex, "uvs");
+    note(normals_.empty() && last_normal_ != kNoIndex, "normals");
+    const std::vector<Corner> corners = corners_.take();
+    const std::size_t count = corners.size();
     out_.positions.reserve(count);
     out_.normals.reserve(count);
     out_.uvs.reserve(count);
     out_.smoothing.reserve(count);
-    for (const Corner& corner : corners_) {
+    for (const Corner& corner : corners) {
+      const bool has_normal = corner.normal != kNoIndex && !normals_.empty();
+      const bool has_uv = corner.uv != kNoIndex && !uvs_.empty();
       out_.positions.push_back(positions_[corner.position]);
-      out_.normals.push_back(corner.normal != kNoIndex ? normals_[corner.normal] : glm::vec3(0));
-      out_.uvs.push_back(corner.uv != kNoIndex ? uvs_[corner.uv] : kNoUv);
+      out_.normals.push_back(has_normal ? normals_[corner.normal] : glm::vec3(0));
+      out_.uvs.push_back(has_uv ? uvs_[corner.uv] : kNoUv);
       out_.smoothing.push_back(corner.group);
     }
   }
@@ -251,8 +244,7 @@ class ObjReader {
   std::vector<glm::dvec3> positions_;
   std::vector<glm::dvec2> uvs_;
   std::vector<glm::vec3> normals_;
-  std::vector<std::uint32_t> slots_;  // hash table of corners_
-  std::vector<Corner> corners_;
+  DistinctValues<Corner> corners_;
   std::uint32_t last_position_ = 0, last_uv_ = kNoIndex, last_normal_ = kNoIndex;
   // Of one face, kept for their memory.
   std::vector<Corner> face_;

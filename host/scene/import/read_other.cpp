@@ -8,9 +8,13 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <new>
+#include <utility>
 
 #include "host/core/atomic_file.h"
+#include "host/core/child_process.h"
 #include "host/core/error.h"
+#include "host/core/free_memory.h"
 
 namespace glintmark {
 namespace {
@@ -55,9 +59,19 @@ class OtherReader {
 
  private:
   [[noreturn]] void failToRead() const {
+    // Assimp guesses by their first bytes what files of other names are.
+    const std::string extension = std::filesystem::path(source_).extension().string();
+    if (!importer_.IsExtensionSupported(extension))
+      throw Error(
+          fmt::format("{}: cannot be read as a mesh: {} no mesh format that is read; save "
+                      "it as OBJ, PLY, STL or glTF",
+                      source_,
+                      extension.empty() ? "without an extension it is of"
+                                        : "files that end in '" + extension + "' are of"));
     std::string reason = importer_.GetErrorString();
     while (!reason.empty() && (reason.back() == '.' || reason.back() == '\n')) reason.pop_back();
     std::ranges::replace(reason, '\n', ' ');
+    if (reason.find("bad_alloc") != std::string::npos) throw std::bad_alloc();
     throw Error(fmt::format("{}: cannot be read as a mesh: {}", source_, reason));
   }
 
@@ -102,10 +116,107 @@ class OtherReader {
   MeshSource out_;
 };
 
+// What assimp may take before it counts as stuck.
+constexpr double kLeast_s = 10, kPerByte_s = 1e-5, kWallOverCpu = 10;
+
+std::uint64_t sizeOf(const std::filesystem::path& file) {
+  return InputFile(file).sizeBytes();
+}
+
+void send(int out, const void* bytes, std::size_t count) {
+  writeAll(out, {static_cast<const char*>(bytes), count}, "a pipe");
+}
+
+template <typename T>
+void sendAll(int out, const std::vector<T>& values) {
+  const std::uint64_t count = values.size();
+  send(out, &count, sizeof count);
+  send(out, values.data(), count * sizeof(T));
+}
+
+void sendText(int out, const std::string& text) {
+  sendAll(out, std::vector<char>(text.begin(), text.end()));
+}
+
+/// Reads the file and writes into a pipe what receive() takes: a byte for its kind, then the mesh
+/// or the message of an Error.
+void hand(const std::filesystem::path& file, int out) {
+  constexpr char kMesh = 'M', kFault = 'F';
+  try {
+    const MeshSource mesh = OtherReader(file).run();
+    send(out, &kMesh, 1);
+    sendAll(out, mesh.positions);
+    sendAll(out, mesh.normals);
+    sendAll(out, mesh.uvs);
+    sendAll(out, mesh.triangles);
+    sendAll(out, mesh.triangle_parts);
+    const std::uint64_t parts = mesh.parts.size();
+    send(out, &parts, sizeof parts);
+    for (const std::string& part : mesh.parts) sendText(out, part);
+  } catch (const std::bad_alloc&) {
+    send(out, &kFault, 1);
+    sendText(out, file.string() + ": needs more memory to be read than is free");
+  } catch (const std::exception& fault) {
+    send(out, &kFault, 1);
+    sendText(out, fault.what());
+  }
+}
+
+template <typename T>
+bool receiveAll(ChildProcess& child, std::vector<T>& values, const std::string& source) {
+  std::uint64_t count = 0;
+  if (child.read(&count, sizeof count) != sizeof count) return false;
+  requireMemory(count * sizeof(T), source);
+  values.resize(count);
+  return child.read(values.data(), count * sizeof(T)) == count * sizeof(T);
+}
+
+bool receiveText(ChildProcess& child, std::string& text, const std::string& source) {
+  std::vector<char> letters;
+  if (!receiveAll(child, letters, source)) return false;
+  text.assign(letters.begin(), letters.end());
+  return true;
+}
+
+/// False if the child ended before all was there. Throws its Error.
+bool receive(ChildProcess& child, MeshSource& mesh, const std::string& source) {
+  char kind = 0;
+  if (child.read(&kind, 1) != 1) return false;
+  if (kind == 'F') {
+    std::string message;
+    if (!receiveText(child, message, source)) return false;
+    throw Error(message);
+  }
+  std::uint64_t parts = 0;
+  if (!receiveAll(child, mesh.positions, source) || !receiveAll(child, mesh.normals, source) ||
+      !receiveAll(child, mesh.uvs, source) || !receiveAll(child, mesh.triangles, source) ||
+      !receiveAll(child, mesh.triangle_parts, source) ||
+      child.read(&parts, sizeof parts) != sizeof parts)
+    return false;
+  for (std::uint64_t i = 0; i < parts; ++i)
+    if (!receiveText(child, mesh.parts.emplace_back(), source)) return false;
+  return true;
+}
+
 }  // namespace
 
 MeshSource readOther(const std::filesystem::path& file) {
-  return OtherReader(file).run();
+  return readOther(file, {.cpu_s = kLeast_s + static_cast<double>(sizeOf(file)) * kPerByte_s});
+}
+
+MeshSource readOther(const std::filesystem::path& file, const ImportLimits& limits) {
+  const std::string source = file.string();
+  ChildProcess child([&](int out) { hand(file, out); }, {.cpu_s = limits.cpu_s,
+                                                         .wall_s = kWallOverCpu * limits.cpu_s,
+                                                         .memory_bytes = freeMemoryBytes()});
+  MeshSource mesh;
+  const bool whole = receive(child, mesh, source);
+  const std::string end = child.finish();
+  if (whole && end.empty()) return mesh;
+  throw Error(
+      fmt::format("{}: cannot be read as a mesh: assimp, which reads such files, {}; save "
+                  "it as OBJ, PLY, STL or glTF",
+                  source, end.empty() ? "ended early" : end));
 }
 
 }  // namespace glintmark

@@ -90,6 +90,7 @@ class PlyReader {
       lists_[i].resize(numbers_.nextCount(property));
       for (double& value : lists_[i]) value = numbers_.next(property.type);
     }
+    if (!element.properties.empty()) numbers_.endElement();
   }
 
   void readVertices(const PlyElement& element) {
