@@ -57,7 +57,7 @@ TEST(StaticCounts, NaturalLoopsOfMachineCode) {
   EXPECT_EQ(inner.calls, 1u);
   EXPECT_EQ(inner.depth, 1);
   EXPECT_EQ(inner.longest_inner, 0u);
-  EXPECT_EQ(counts.cell_loop_instructions, outer.instructions) << "the only one with both products";
+  EXPECT_EQ(counts.cell_loop_instructions, inner.instructions) << "half of the products";
 }
 
 TEST(StaticCounts, WhereInstructionsLeadTo) {
