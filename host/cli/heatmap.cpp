@@ -23,7 +23,7 @@ struct HeatmapCommand {
   std::string picture, exr, csv;
   std::string scale = "fixed";
   ShadingFlags flags{defaultMethod()};
-  bool sweep_angle = false;
+  bool sweep_angle = false, scale_given = false;
 };
 
 HeatmapScale parseScale(const std::string& name) {
@@ -46,6 +46,9 @@ void checkOutputs(const HeatmapCommand& command) {
   if (command.sweep_angle && !command.exr.empty()) {
     throw Error("--exr holds one view; it does not go with --sweep-angle");
   }
+  parseScale(command.scale);  // refuses what there is not
+  if (command.scale_given && command.picture.empty())
+    throw Error("--scale is of the picture; add -o FILE.png");
   if (!command.sweep_angle && !command.csv.empty()) {
     throw Error("--csv holds a sweep; it needs --sweep-angle");
   }
@@ -115,7 +118,8 @@ void addHeatmapCommand(Command app, CommandLine& line) {
   command.option("--view", options->view, "View of the scene (default: its first; sweep: sweep)");
   command.option("--size", options->size, "Image size (default: 1920x1080; sweep: 960x540)")
       .typeName("WxH");
-  command.option("--scale", options->scale, "fixed (8 to 64 cells) or auto (default: fixed)");
+  const CommandOption scale =
+      command.option("--scale", options->scale, "fixed (8 to 64 cells) or auto (default: fixed)");
   options->flags.addGlintOptions(command);
   command.flag("--sweep-angle", options->sweep_angle,
                "A view that orbits a plane, from 90 to 1 degrees: picture strip and CSV");
@@ -126,7 +130,8 @@ void addHeatmapCommand(Command app, CommandLine& line) {
       "  glintmark heatmap sponza --view grazing -o cells.png --exr cells.exr\n"
       "  glintmark heatmap snow -o cells.png --scale auto --size 960x540\n"
       "  glintmark heatmap --sweep-angle -o sweep.png --csv sweep.csv");
-  command.callback([options, &line] {
+  command.callback([options, scale, &line] {
+    options->scale_given = scale.given();
     line.action = [options, &line] { return runHeatmap(line.common, *options); };
   });
 }

@@ -48,7 +48,7 @@ struct RenderOptions {
   int frames = 0;     // of a path; 0: one picture, without a number
   std::string path;
   double step = 0.1;
-  bool frames_given = false;
+  bool frames_given = false, step_given = false;
   int zoom = 0;  // octaves; 0: one picture
   bool no_glints = false;
   bool star = false, star_chosen = false;
@@ -109,6 +109,7 @@ int runZoom(const CommonOptions& common, const RenderOptions& options,
     throw Error("--zoom makes many pictures; it does not go with --aov or --trace");
   const Scene scene = openScene(common, options.scene);
   const View& view = chosenView(scene, options.view);
+  options.flags.noteIdle(scene, shading, common.quiet);
   Device device = openDevice(common);
   const double exposure = options.exposure.value_or(scene.post.exposure);
   writePng(zoomStrip(device, scene, view, shading, options.zoom, exposure, common.threads),
@@ -140,6 +141,10 @@ void checkRenderOptions(const RenderOptions& options) {
     throw Error(fmt::format("--frames {} is not from 1 to {}", options.frames, kMostFrames));
   if (options.frames_given != !options.path.empty())
     throw Error("--frames and --path go together: so many pictures along a path");
+  if (options.step_given && !options.frames_given)
+    throw Error("--step is from picture to picture; it needs --frames and --path");
+  if (options.exposure && extension == ".exr" && !options.star)
+    throw Error("--exposure is for .png pictures and for --star; .exr holds the radiance itself");
   if (options.zoom != 0 && (options.frames_given || options.truth_spp > 0))
     throw Error("--zoom makes a strip of frames; it does not go with --truth or --frames");
   if (options.zoom != 0 && (options.star || options.background))
@@ -352,10 +357,11 @@ void addRenderCommand(Command app, CommandLine& line) {
           .typeName("N");
   command.option("--path", options->path, "orbit, dolly or pan: how the view moves")
       .typeName("PATH");
-  command
-      .option("--step", options->step,
-              "From picture to picture: degrees, or per cent of the distance (default: 0.1)")
-      .typeName("X");
+  const CommandOption step =
+      command
+          .option("--step", options->step,
+                  "From picture to picture: degrees, or per cent of the distance (default: 0.1)")
+          .typeName("X");
   command
       .option("--zoom", options->zoom,
               "Strip of pictures over so many octaves, through ever narrower fields of view")
@@ -368,7 +374,8 @@ void addRenderCommand(Command app, CommandLine& line) {
                    "The environment behind the meshes (default: for PNG)");
   command.option("--exposure", options->exposure, "Scale before tone mapping").typeName("X");
   command.footer(kRenderExamples);
-  command.callback([options, star, background, frames, &line] {
+  command.callback([options, star, background, frames, step, &line] {
+    options->step_given = step.given();
     options->star_chosen = star.given();
     options->background_chosen = background.given();
     options->frames_given = frames.given();

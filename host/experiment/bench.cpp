@@ -39,6 +39,12 @@ void requireKnown(const char* what, const std::vector<std::string>& chosen,
   for (const std::string& name : chosen) requireKnownName(what, name, known);
 }
 
+// Appends those of `names` that are not there yet.
+void addNew(const std::vector<std::string>& names, std::vector<std::string>& all) {
+  for (const std::string& name : names)
+    if (std::ranges::find(all, name) == all.end()) all.push_back(name);
+}
+
 // Does the table have any of the chosen names?
 bool offersAny(const std::vector<std::string>& known, const std::vector<std::string>& chosen) {
   return chosen.empty() || !selectNames(known, chosen).empty();
@@ -54,13 +60,8 @@ std::vector<BenchTable> chooseTables(const std::vector<std::string>& names,
     });
   std::vector<std::string> scenes, views;
   for (const BenchTable& table : tables) {
-    scenes.insert(scenes.end(), table.scenes.begin(), table.scenes.end());
-    views.insert(views.end(), table.views.begin(), table.views.end());
-  }
-  for (std::vector<std::string>* names_of_all : {&scenes, &views}) {
-    std::ranges::sort(*names_of_all);
-    const auto again = std::ranges::unique(*names_of_all);
-    names_of_all->erase(again.begin(), again.end());
+    addNew(table.scenes, scenes);
+    addNew(table.views, views);
   }
   requireKnown("scene", options.scenes, scenes);
   requireKnown("view", options.views, views);

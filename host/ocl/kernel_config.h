@@ -8,8 +8,8 @@
 
 namespace glintmark {
 
-// GlintMethod, NormalMethod, LtcMethod, Multiscatter, BinomialForm, Maths, EdgeIntegral and
-// GeometricAa.
+// GlintMethod, NormalMethod, LtcMethod, Multiscatter, BinomialForm, Maths, EdgeIntegral,
+// GeometricAa and LightCut.
 #define CHOICES(type) enum class type : int {
 #define CHOICE(enumerator, ...) enumerator,
 #define CHOICES_END \

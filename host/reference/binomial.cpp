@@ -93,8 +93,10 @@ std::int64_t drawExact(double u, std::int64_t count, double p) {
   return draw(u, count, p, kExact);
 }
 
-std::int64_t drawZk16(double u, std::int64_t count, double p) {
-  return draw(u, count, p, kZk16);
+std::int64_t drawZk16(double u, std::int64_t count, double p, double limits) {
+  DrawRule rule = kZk16;
+  rule.most_mean *= limits;
+  return draw(u, count, p, rule);
 }
 
 }  // namespace glintmark::reference

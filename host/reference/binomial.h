@@ -14,6 +14,8 @@ std::int64_t drawExact(double u, std::int64_t count, double p);
 
 /// The same for method `zk16`: 5 and 3.75, first order, and beyond 16 terms the exponential tail.
 /// [ZK16] Sect. 4.3
-std::int64_t drawZk16(double u, std::int64_t count, double p);
+/// Method `distributed` has both means `limits` times as large where many microdetails of a pixel
+/// reflect.
+std::int64_t drawZk16(double u, std::int64_t count, double p, double limits = 1);
 
 }  // namespace glintmark::reference

@@ -26,6 +26,9 @@ std::int32_t floorToIndex(double x) {
 
 // Mean above which some method rounds a real number; the smallest of the methods' limits.
 constexpr double kMostExactMean = 3.75;
+// Of a pixel's reflecting microdetails, from which on method distributed lowers the limits, and how
+// far at most.
+constexpr double kCrowd = 64, kLeastLimits = 0.02;
 
 // What the draws of one pixel and light have in common.
 struct LightDraw {
@@ -48,13 +51,14 @@ double weightOf(const GridVisit& grid) {
   return weight;
 }
 
-std::int64_t drawn(std::uint32_t d, std::int64_t count, const LightDraw& draw) {
+std::int64_t drawn(std::uint32_t d, std::int64_t count, const LightDraw& draw, double limits = 1) {
   const double u = uniformOf(d);
-  return draw.exact ? drawExact(u, count, draw.probability) : drawZk16(u, count, draw.probability);
+  return draw.exact ? drawExact(u, count, draw.probability)
+                    : drawZk16(u, count, draw.probability, limits);
 }
 
-bool roundsReals(double count, double p) {
-  return count * std::min(p, 1.0 - p) > kMostExactMean;
+bool roundsReals(double count, double p, double limits = 1) {
+  return count * std::min(p, 1.0 - p) > kMostExactMean * limits;
 }
 
 // Adds one grid's share of reflecting microdetails, relative to its expectation: Listing 1, lines
@@ -109,11 +113,14 @@ double distributedRatio(std::span<const GridVisit> grids, double microdetails,
       all += static_cast<double>(share.count) / share.factor;
     }
   }
+  const double lit = microdetails * std::min(p, 1 - p);
+  const double limits = std::clamp(kCrowd / lit, kLeastLimits, 1.0);
   double sum = 0;
   for (const Share& share : shares) {
     const double one = 1 / (share.factor * all * p);
-    sum += one * static_cast<double>(drawn(share.d, share.count, draw));
-    if (roundsReals(static_cast<double>(share.count), p)) rounding = std::max(rounding, one);
+    sum += one * static_cast<double>(drawn(share.d, share.count, draw, limits));
+    if (roundsReals(static_cast<double>(share.count), p, limits))
+      rounding = std::max(rounding, one);
   }
   return sum;
 }

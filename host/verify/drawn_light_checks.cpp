@@ -21,7 +21,7 @@ namespace {
 constexpr float kSkyRoughness = 0.5f, kSkyMicro = 0.05f;  // alpha_g, alpha_l
 constexpr int kSkyPixels = 1 << 13;
 // Of what all cones make of pixels, on average.
-constexpr double kFineCut = 0.02, kMediumCut = 0.05, kCoarseCut = 0.15;
+constexpr double kFineCut = 0.004, kMediumCut = 0.015, kCoarseCut = 0.12;
 
 // The sky of scene glitter, cut into cones, with the zenith along the normal.
 std::vector<ConeLight> skyCones(int count) {

@@ -239,6 +239,20 @@ TEST(Render, SaysWhichOptionsDoNothing) {
             std::string::npos);
 }
 
+TEST(Render, RefusesOptionsThatWouldDoNothing) {
+  const TempFolder folder;
+  const auto refused = [&](const std::vector<std::string>& arguments, const char* sentence) {
+    const ProcessResult result = runGlintmark(arguments);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_NE(result.err.find(sentence), std::string::npos) << result.err;
+  };
+  const std::string exr = folder / "a.exr";
+  refused({"render", "snow", "-o", exr, "--step", "2"}, "--step is from picture to picture");
+  refused({"render", "snow", "-o", exr, "--exposure", "2"}, "--exposure is for .png pictures");
+  refused({"heatmap", "snow", "--scale", "auto"}, "--scale is of the picture");
+  EXPECT_EQ(folder.entryCount(), 0u);
+}
+
 // A walk over a tree of cones: few at a rough lobe, and the same picture within some per cent.
 TEST(Render, LightCutStaysNearAllCones) {
   const TempFolder folder;
