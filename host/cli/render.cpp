@@ -44,6 +44,7 @@ struct RenderOptions {
   std::string size = "1920x1080", method = choiceName(kRenderMethod);
   std::string normal_method = choiceName(ShadingOptions{}.normal_method);
   std::string ltc_method = choiceName(ShadingOptions{}.ltc_method);
+  bool round_lobes = false;
   std::string geometric_aa = choiceName(ShadingOptions{}.geometric_aa);
   int drawn_lights = 0;
   int truth_spp = 0;  // 0: a frame
@@ -281,6 +282,7 @@ int runRender(const CommandLine& line, const RenderOptions& options) {
       .ltc_method = parseChoice<LtcMethod>(options.ltc_method, "area light method"),
       .drawn_lights = checkedDrawnLights(options.drawn_lights),
       .geometric_aa = parseChoice<GeometricAa>(options.geometric_aa, "geometric antialiasing"),
+      .round_lobes = options.round_lobes,
       .glints = !options.no_glints};
   if (options.zoom != 0) return runZoom(common, options, shading);
   const Scene scene = openScene(common, options.scene);
@@ -361,6 +363,8 @@ void addRenderCommand(Command app, CommandLine& line) {
   command.option(
       "--ltc-method", options->ltc_method,
       fmt::format("{} (default: {})", listOf(namesOf<LtcMethod>(), "or"), options->ltc_method));
+  command.flag("--round-lobes", options->round_lobes,
+               "Area lights see round lobes on anisotropic materials too");
   command
       .option("--truth", options->truth_spp,
               "The ground truth by so many samples a pixel, in place of any method")
