@@ -47,6 +47,9 @@ void ShadingFlags::addSurfaceOptions(Command& command) {
   add(command, "--geometric-aa", geometric_aa_, choiceHelp<GeometricAa>(geometric_aa_));
   add(command, "--normal-method", normal_method_, choiceHelp<NormalMethod>(normal_method_));
   add(command, "--ltc-method", ltc_method_, choiceHelp<LtcMethod>(ltc_method_));
+  given_.push_back({"--round-lobes",
+                    command.flag("--round-lobes", round_lobes_,
+                                 "Area lights see round lobes on anisotropic materials too")});
 }
 
 void ShadingFlags::apply(ShadingOptions& options) const {
@@ -55,6 +58,7 @@ void ShadingFlags::apply(ShadingOptions& options) const {
   options.ltc_method = parseChoice<LtcMethod>(ltc_method_, "area light method");
   options.drawn_lights = checkedDrawnLights(drawn_lights_);
   options.geometric_aa = parseChoice<GeometricAa>(geometric_aa_, "geometric antialiasing");
+  options.round_lobes = round_lobes_;
   options.light_cut = parseChoice<LightCut>(light_cut_, "light cut");
 }
 
@@ -87,6 +91,7 @@ std::vector<std::string> ShadingFlags::idle(const Scene& scene, const ShadingOpt
   needs("--drawn-lights", &KernelConfig::glint, no_glints);
   needs("--normal-method", &KernelConfig::normal_map, "where no material has a normal map");
   needs("--ltc-method", &KernelConfig::ltc, "which has no area lights");
+  needs("--round-lobes", &KernelConfig::ltc, "which has no area lights");
   needs("--light-cut", &KernelConfig::light_cone, "which has no cones of light");
   for (std::size_t i = 0; i < configs.size(); ++i) {
     const std::string& material = scene.materials[i].name;

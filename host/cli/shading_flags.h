@@ -18,7 +18,7 @@ class ShadingFlags {
 
   /// --method, --drawn-lights and --light-cut: of glints and of many lights.
   void addGlintOptions(Command& command);
-  /// --geometric-aa, --normal-method and --ltc-method.
+  /// --geometric-aa, --normal-method, --ltc-method and --round-lobes.
   void addSurfaceOptions(Command& command);
 
   /// Throws Error, one sentence, for a name or number that there is not.
@@ -45,6 +45,7 @@ class ShadingFlags {
   std::string geometric_aa_ = choiceName(ShadingOptions{}.geometric_aa);
   std::string light_cut_ = choiceName(ShadingOptions{}.light_cut);
   int drawn_lights_ = 0;
+  bool round_lobes_ = false;
   std::vector<Given> given_;
 };
 

@@ -12,9 +12,9 @@ namespace {
 
 constexpr const char* kProbes = "probes/probe_area_light.cl";
 
-// Ten planes of numbers.
+// Fourteen planes of numbers.
 std::vector<float> pointPlanes(const std::vector<HandMadePoint>& points, std::size_t stride) {
-  std::vector<float> planes(10 * stride);
+  std::vector<float> planes(14 * stride);
   for (std::size_t i = 0; i < stride; ++i) {
     const HandMadePoint& p = points[std::min(i, points.size() - 1)];
     for (int c = 0; c < 3; ++c) {
@@ -24,8 +24,21 @@ std::vector<float> pointPlanes(const std::vector<HandMadePoint>& points, std::si
       planes[(6 + plane) * stride + i] = static_cast<float>(p.view[c]);
     }
     planes[9 * stride + i] = static_cast<float>(p.alpha);
+    planes[10 * stride + i] = static_cast<float>(p.alpha_across);
+    for (int c = 0; c < 3; ++c)
+      planes[(11 + static_cast<std::size_t>(c)) * stride + i] = static_cast<float>(p.axis[c]);
   }
   return planes;
+}
+
+// The table of round lobes and, behind it, that of others, as frames hand them to the kernels.
+std::vector<float> tableValues(const AreaLightProbe& probe) {
+  std::vector<float> values = probe.table.values;
+  if (probe.anisotropic != nullptr) {
+    const std::vector<float> stretched = probe.anisotropic->paddedValues();
+    values.insert(values.end(), stretched.begin(), stretched.end());
+  }
+  return values;
 }
 
 // The pictures of lights, one after the other, as the kernels read them.
@@ -65,7 +78,7 @@ std::vector<glm::vec3> lightPoints(KernelBench& bench, const AreaLightProbe& pro
   std::vector<KernelArg> args = {probeData(bench, pointPlanes(points, stride)),
                                  probeData(bench, std::vector{probe.material}),
                                  probeData(bench, prepareAreaLights(probe.lights, glm::dvec3(0))),
-                                 probeData(bench, probe.table.values)};
+                                 probeData(bench, tableValues(probe))};
   if (textured) {
     args.push_back(probeData(bench, pictures.layouts));
     args.push_back(probeData(bench, pictures.texels));
@@ -78,9 +91,10 @@ std::vector<glm::vec3> lightPoints(KernelBench& bench, const AreaLightProbe& pro
   probeKernel(bench, kProbes, "probeAreaLights",
               fmt::format("-D WIDTH={} -D LTC=1 -D LIGHT_VERTICES={} -D DIFFUSE={:d} "
                           "-D CLIPLESS={:d} -D LIGHT_TEXTURE={:d} -D ALBEDO_SCALING={:d} "
-                          "-D LIGHT_SHAPES={:d}",
+                          "-D LIGHT_SHAPES={:d} -D LTC_ANISOTROPIC={:d}",
                           probe.width, vertices, diffuse, probe.clipless, textured,
-                          diffuse && probe.material.surface.intensity > 0, shapes))
+                          diffuse && probe.material.surface.intensity > 0, shapes,
+                          probe.anisotropic != nullptr))
       .launch(args, stride / static_cast<std::size_t>(probe.width), kLocalSize);
   std::vector<float> values(3 * stride);
   out.read(values.data(), values.size() * 4);

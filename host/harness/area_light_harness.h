@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "host/core/shared_types.h"
+#include "host/fit/anisotropic_table.h"
 #include "host/fit/ltc_table.h"
 #include "host/harness/kernel_bench.h"
 #include "host/ocl/kernel_config.h"
@@ -16,13 +17,17 @@ struct HandMadePoint {
   glm::dvec3 position{0};
   glm::dvec3 normal{0, 0, 1};
   glm::dvec3 view{0, 0, 1};  // unit
-  double alpha = 1;
+  double alpha = 1;          // of anisotropic probes, along `axis`
+  double alpha_across = 1;
+  glm::dvec3 axis{1, 0, 0};  // not along the normal
 };
 
 struct AreaLightProbe {
   MaterialParams material{};
   std::vector<AreaLight> lights;
   LtcTable table;
+  /// Lobes are stretched, by this table; null: they are round.
+  const AnisotropicTable* anisotropic = nullptr;
   int width = 16;
   bool clipless = false;
 };

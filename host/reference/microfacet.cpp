@@ -12,25 +12,30 @@ std::string ndfName(Ndf ndf) {
   return ndf == Ndf::kGgx ? "ggx" : "beckmann";
 }
 
-double microfacetDensity(Ndf ndf, const glm::dvec3& m, double alpha) {
+double microfacetDensity(Ndf ndf, const glm::dvec3& m, const glm::dvec2& alpha) {
   if (m.z <= 0) return 0;
-  if (ndf != Ndf::kGgx) return reference::ndf(m, glm::dvec2(alpha));
-  const double sine_sq = m.x * m.x + m.y * m.y;  // not 1 - z^2, which cancels near the normal
-  const double root = m.z * m.z + sine_sq / (alpha * alpha);
-  return 1 / (std::numbers::pi * alpha * alpha * root * root);
+  if (ndf != Ndf::kGgx) return reference::ndf(m, alpha);
+  const glm::dvec2 stretched = glm::dvec2(m) / alpha;  // not 1 - z^2, which cancels near the normal
+  const double root = m.z * m.z + glm::dot(stretched, stretched);
+  return 1 / (std::numbers::pi * alpha.x * alpha.y * root * root);
+}
+
+double microfacetDensity(Ndf ndf, const glm::dvec3& m, double alpha) {
+  return microfacetDensity(ndf, m, glm::dvec2(alpha));
 }
 
 // At the horizon it is alpha / 2 (GGX) or alpha / (2 sqrt(pi)) (Beckmann).
-double lambdaTimesCosine(Ndf ndf, const glm::dvec3& w, double alpha, SmithForm form) {
+double lambdaTimesCosine(Ndf ndf, const glm::dvec3& w, const glm::dvec2& alpha, SmithForm form) {
   if (ndf == Ndf::kNormals) return 0;
-  const double z = std::max(w.z, 0.0), sine_sq = w.x * w.x + w.y * w.y;
+  const double z = std::max(w.z, 0.0);
+  const glm::dvec2 seen = alpha * glm::dvec2(w);
+  const double alpha_sine_sq = glm::dot(seen, seen);
   if (ndf == Ndf::kGgx) {
-    const double alpha_sine_sq = alpha * alpha * sine_sq;
     // (sqrt(z^2 + a^2 s^2) - z) / 2 without cancellation.
     const double sum = std::sqrt(z * z + alpha_sine_sq) + z;
     return sum > 0 ? 0.5 * alpha_sine_sq / sum : 0;
   }
-  const double alpha_sine = alpha * std::sqrt(sine_sq);
+  const double alpha_sine = std::sqrt(alpha_sine_sq);
   if (alpha_sine <= 0) return 0;
   const double a = z / alpha_sine;
   if (form == SmithForm::kRational)
@@ -40,12 +45,16 @@ double lambdaTimesCosine(Ndf ndf, const glm::dvec3& w, double alpha, SmithForm f
   return std::max(0.5 * value, 0.0);  // cancels for large a
 }
 
+double lambdaTimesCosine(Ndf ndf, const glm::dvec3& w, double alpha, SmithForm form) {
+  return lambdaTimesCosine(ndf, w, glm::dvec2(alpha), form);
+}
+
 double microfacetLambda(Ndf ndf, const glm::dvec3& w, double alpha) {
   return lambdaTimesCosine(ndf, w, alpha, SmithForm::kExact) / w.z;
 }
 
-double microfacetTimesCosine(Ndf ndf, const glm::dvec3& i, const glm::dvec3& o, double alpha,
-                             SmithForm form) {
+double microfacetTimesCosine(Ndf ndf, const glm::dvec3& i, const glm::dvec3& o,
+                             const glm::dvec2& alpha, SmithForm form) {
   if (o.z < 0 || (i.z <= 0 && ndf != Ndf::kNormals)) return 0;
   const glm::dvec3 sum = i + o;
   const glm::dvec3 m = sum / std::sqrt(glm::dot(sum, sum));
@@ -58,6 +67,11 @@ double microfacetTimesCosine(Ndf ndf, const glm::dvec3& i, const glm::dvec3& o, 
   const double lambda_i = lambdaTimesCosine(ndf, i, alpha, form);
   const double masking = i.z / (i.z * (o.z + lambda_o) + o.z * lambda_i);
   return 0.25 * microfacetDensity(ndf, m, alpha) * masking;
+}
+
+double microfacetTimesCosine(Ndf ndf, const glm::dvec3& i, const glm::dvec3& o, double alpha,
+                             SmithForm form) {
+  return microfacetTimesCosine(ndf, i, o, glm::dvec2(alpha), form);
 }
 
 AlbedoParts microfacetAlbedoParts(Ndf ndf, double mu, double alpha, SmithForm form) {

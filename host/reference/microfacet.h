@@ -1,7 +1,8 @@
-// Isotropic microfacet BRDFs in double precision: GGX and Beckmann with height-correlated Smith
-// masking and shadowing, G2 = 1 / (1 + Lambda(i) + Lambda(o)). [Heitz14] Eq. 99
+// Microfacet BRDFs in double precision: GGX and Beckmann with height-correlated Smith masking and
+// shadowing, G2 = 1 / (1 + Lambda(i) + Lambda(o)). [Heitz14] Eq. 99
 //
-// Directions are unit vectors in the tangent frame (z: normal). The fit of linearly transformed
+// Directions are unit vectors in the tangent frame (z: normal). A roughness is a number, or one each
+// along x and y of that frame. The fit of linearly transformed
 // cosines and the Monte Carlo ground truth use this same BRDF.
 // [Walter07] "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007. [Heitz14]
 // "Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs", JCGT 3(2).
@@ -23,6 +24,7 @@ std::string ndfName(Ndf ndf);
 
 /// D(m), normalised such that the integral of D(m) m.z over directions is 1; 0 below the horizon.
 /// alpha > 0. [Walter07] Eq. 25 and 33
+double microfacetDensity(Ndf ndf, const glm::dvec3& m, const glm::dvec2& alpha);
 double microfacetDensity(Ndf ndf, const glm::dvec3& m, double alpha);
 
 /// How Smith's Lambda of a Beckmann surface is had: exactly, or by the rational fit that the
@@ -30,6 +32,8 @@ double microfacetDensity(Ndf ndf, const glm::dvec3& m, double alpha);
 enum class SmithForm { kExact, kRational };
 
 /// Lambda(w) w.z for w.z >= 0, which stays finite at the horizon.
+double lambdaTimesCosine(Ndf ndf, const glm::dvec3& w, const glm::dvec2& alpha,
+                         SmithForm form = SmithForm::kExact);
 double lambdaTimesCosine(Ndf ndf, const glm::dvec3& w, double alpha,
                          SmithForm form = SmithForm::kExact);
 
@@ -39,6 +43,8 @@ double microfacetLambda(Ndf ndf, const glm::dvec3& w, double alpha);
 /// BRDF times i.z at a Fresnel term of 1: D(m) G2(i, o) / (4 o.z); 0 where i or o is not above the
 /// surface (of kNormals, o only). Its limit for a grazing view, o.z = 0, is finite and is what this
 /// returns there.
+double microfacetTimesCosine(Ndf ndf, const glm::dvec3& i, const glm::dvec3& o,
+                             const glm::dvec2& alpha, SmithForm form = SmithForm::kExact);
 double microfacetTimesCosine(Ndf ndf, const glm::dvec3& i, const glm::dvec3& o, double alpha,
                              SmithForm form = SmithForm::kExact);
 

@@ -12,7 +12,7 @@ std::vector<Check> allChecks() {
         colourChecks,      shadingChecks,     couplingChecks,    curvatureChecks,
         energyChecks,      zoomChecks,        rivalChecks,       coneChecks,
         drawnLightChecks,  mappedConeChecks,  hardPixelChecks,   polygonChecks,
-        areaLightChecks,   areaShapeChecks,   shapeTruthChecks,  areaMixtureChecks,
+        areaLightChecks,   anisotropicChecks, areaShapeChecks,   shapeTruthChecks,  areaMixtureChecks,
         areaGlintChecks,   ggxChecks,         areaColourChecks,  pictureChecks,
         textureChecks,     lobeChecks,        convolutionChecks, normalMethodChecks,
         mixtureChecks,     scatterChecks,     frameChecks,       truthChecks,

@@ -27,6 +27,7 @@ std::vector<Check> mappedConeChecks();    // spread normals under them
 std::vector<Check> hardPixelChecks();     // footprints, materials and lights at their limits
 std::vector<Check> polygonChecks();       // area lights over a cosine
 std::vector<Check> areaLightChecks();     // area lights over transformed cosines
+std::vector<Check> anisotropicChecks();   // area lights over anisotropic surfaces
 std::vector<Check> areaShapeChecks();     // discs, spheres and tubes
 std::vector<Check> shapeTruthChecks();    // their ground truths
 std::vector<Check> areaMixtureChecks();   // area lights over mixtures of normals

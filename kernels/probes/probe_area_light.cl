@@ -13,7 +13,8 @@ WIDE vfloat3 loadVector(global const float* p, size_t i, size_t stride) {
   return r;
 }
 
-// points: ten planes of `count` entries: position, normal, view, alpha. out: r, g, b.
+// points: fourteen planes of `count` entries: position, normal, view, alpha; of anisotropic lobes,
+// whose alpha that is along an axis, alpha across it and the axis. out: r, g, b.
 kernel void probeAreaLights(global const float* points, constant const MaterialParams* material,
                             constant const AreaLightParams* lights, global const float* table,
 #if LIGHT_TEXTURE
@@ -27,6 +28,11 @@ kernel void probeAreaLights(global const float* points, constant const MaterialP
   point.normal = loadVector(points, 3 * count + FIRST, count);
   point.view = loadVector(points, 6 * count + FIRST, count);
   point.alpha = loadFloat(points, 9 * count + FIRST);
+#if LTC_ANISOTROPIC
+  point.stretched =
+      anisotropicAlpha(loadVector(points, 11 * count + FIRST, count), point.normal, point.alpha,
+                       loadFloat(points, 10 * count + FIRST), MIN_AREA_ALPHA);
+#endif
   const vfloat3 sum = shadeAreaLights(point, &material->surface, lights, light_count, table,
                                       table_size PICTURE_ARGUMENTS);
   storeFloat(sum.x, out, FIRST);

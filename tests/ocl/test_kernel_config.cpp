@@ -166,10 +166,10 @@ TEST(KernelConfig, RangesAreChecked) {
               "ka " + std::to_string(ka) + " is out of range; it must be 1 to 64");
   }
   KernelConfig config;
-  config.ltc_method = static_cast<LtcMethod>(4);
+  config.ltc_method = static_cast<LtcMethod>(5);
   EXPECT_EQ(errorOf([&] { buildOptions(config); }),
-            "area light method 4 is unknown; it must be 0 (original), 1 (tao21), 2 (exact) or 3 "
-            "(mixture)");
+            "area light method 5 is unknown; it must be 0 (original), 1 (tao21), 2 (exact), 3 "
+            "(mixture) or 4 (covariance)");
 }
 
 }  // namespace

@@ -216,7 +216,8 @@ TEST(SwitchTable, ChoicesHaveOneNameEach) {
       EXPECT_EQ(findChoice(row.values.choices, row.values.choices[i].name), static_cast<int>(i));
   EXPECT_EQ(parseChoice<LtcMethod>("tao21", "method"), LtcMethod::kTao21);
   const std::string unknown = errorOf([] { parseChoice<LtcMethod>("gmm", "method"); });
-  EXPECT_EQ(unknown, "unknown method 'gmm'; methods are original, tao21, exact, mixture");
+  EXPECT_EQ(unknown,
+            "unknown method 'gmm'; methods are original, tao21, exact, mixture, covariance");
 }
 
 TEST(SwitchTable, UnknownSwitchesAreErrors) {

@@ -20,8 +20,8 @@ inline constexpr const char* kTao21SummaryScene = "area_plane";
 inline constexpr double kTao21FrameMs = 16;
 
 /// In the order of enum LtcMethod.
-inline constexpr std::array<std::string_view, 4> kTao21Methods = {"original", "tao21", "exact",
-                                                                  "mixture"};
+inline constexpr std::array<std::string_view, 5> kTao21Methods = {"original", "tao21", "exact",
+                                                                  "mixture", "covariance"};
 
 /// Time and error of every method in every view, cases in the order of the records; figures whose
 /// records are not valid carry a "!".

@@ -8,6 +8,7 @@
 
 #include "host/core/error.h"
 #include "host/core/float4.h"
+#include "host/fit/anisotropic_table.h"
 #include "host/ocl/upload.h"
 
 namespace glintmark {
@@ -170,7 +171,8 @@ AreaLightBuffers::AreaLightBuffers(Device& device, const Scene& scene, const glm
 
 const AreaLightBuffers::Table& AreaLightBuffers::table(const KernelConfig& config) {
   const bool mixture = config.ltc_method == LtcMethod::kMixture;
-  const auto key = std::tuple(config.ggx, config.ltc_half, mixture);
+  const bool anisotropic = config.ltc_anisotropic && !mixture;
+  const auto key = std::tuple(config.ggx, config.ltc_half, mixture, anisotropic);
   const auto found = tables_.find(key);
   if (found != tables_.end()) return found->second;
   const reference::Ndf ndf = config.ggx ? reference::Ndf::kGgx : reference::Ndf::kBeckmann;
@@ -181,6 +183,10 @@ const AreaLightBuffers::Table& AreaLightBuffers::table(const KernelConfig& confi
     LtcTable normals = shippedLtcTable(reference::Ndf::kNormals);
     if (normals.size != loaded.size) normals = resizedLtcTable(normals, loaded.size);
     loaded.values.insert(loaded.values.end(), normals.values.begin(), normals.values.end());
+  }
+  if (anisotropic) {
+    const std::vector<float> stretched = shippedAnisotropicTable(ndf).paddedValues();
+    loaded.values.insert(loaded.values.end(), stretched.begin(), stretched.end());
   }
   constexpr BufferPurpose kPurpose = BufferPurpose::kCosineTable;
   Table made{config.ltc_half ? upload(device_, toHalves(loaded.values), kPurpose)

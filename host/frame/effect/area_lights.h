@@ -57,8 +57,9 @@ class AreaLightBuffers {
   uint light_count_ = 0;
   Buffer lights_, layouts_, texels_;
   std::shared_ptr<const LtcTable> own_table_;
-  // By "is GGX", "is in half precision" and "has that of normals behind it".
-  std::map<std::tuple<bool, bool, bool>, Table> tables_;
+  // By "is GGX", "is in half precision", "has that of normals behind it" and "has that of
+  // anisotropic lobes behind it".
+  std::map<std::tuple<bool, bool, bool, bool>, Table> tables_;
 };
 
 }  // namespace glintmark

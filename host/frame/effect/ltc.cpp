@@ -20,11 +20,15 @@ void chooseLtc(const ProgramCall& call, KernelConfig& config) {
   config.light_vertices = static_cast<int>(most_vertices);
   if (call.truth) return;
   setKnobs(call.options, &KernelConfig::ltc, config);
+  const float2 alpha = call.material.params.surface.alpha_g;
+  config.ltc_anisotropic = !config.round_lobes && alpha.x != alpha.y;
   config.ltc_method = LtcMethod::kOriginal;  // the effect `multiscale` chooses
 }
 
 void chooseLtcForAll(std::span<const KernelConfig> own, const ShadingOptions&, KernelConfig& all) {
   if (!own.empty()) all.ggx = own.front().ggx;
+  for (const KernelConfig& one : own)
+    all.ltc_anisotropic = all.ltc_anisotropic || one.ltc_anisotropic;
 }
 
 AreaLightBuffers& buffersOf(FrameResources& frame) {
