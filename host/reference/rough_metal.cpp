@@ -57,11 +57,10 @@ double RoughMetal::schlick(double mu) const {
 }
 
 double RoughMetal::gain(MetalWay way, double f0, double mu) const {
-  if (way != MetalWay::kTurquin && way != MetalWay::kSeries) return 1;
+  if (way != MetalWay::kTurquin && way != MetalWay::kMean) return 1;
   const double energy = way == MetalWay::kTurquin && energy_ ? energy_(mu) : mirror(mu);
-  if (way == MetalWay::kTurquin) return 1 + f0 * (1 / energy - 1);
-  const double mean = meanReflectance(f0);
-  return 1 + mean * mean_ / (1 - mean * (1 - mean_)) * (1 / energy - 1);
+  const double colour = way == MetalWay::kTurquin ? f0 : meanReflectance(f0);
+  return 1 + colour * (1 / energy - 1);
 }
 
 double RoughMetal::beside(MetalWay way, double f0, double mu) const {

@@ -13,8 +13,8 @@
 
 namespace glintmark::reference {
 
-/// kSeries is ours: Turquin's scaling in Kulla and Conty's colour.
-enum class MetalWay { kSingle, kTurquin, kSeries, kKullaConty, kFdezAguera };
+/// kMean is ours: Turquin's scaling with the mean reflectance in place of f0.
+enum class MetalWay { kSingle, kTurquin, kMean, kKullaConty, kFdezAguera };
 
 class RoughMetal {
  public:

@@ -36,12 +36,12 @@ void readNdf(SceneTable& table, Material& material) {
 }
 
 void readCompensation(SceneTable& table, Material& material) {
-  constexpr const char* kNames[] = {"off",    "lobe",        "simulated",
-                                    "series", "kulla_conty", "fdez_aguera"};
+  constexpr const char* kNames[] = {"off",  "lobe",        "simulated",
+                                    "mean", "kulla_conty", "fdez_aguera"};
   const std::string name = table.text("compensation", "off");
   const auto found = std::ranges::find(kNames, name);
   if (found == std::end(kNames))
-    table.fail("compensation", fmt::format("is '{}', expected off, lobe, simulated, series, "
+    table.fail("compensation", fmt::format("is '{}', expected off, lobe, simulated, mean, "
                                            "kulla_conty or fdez_aguera",
                                            name));
   material.compensation = static_cast<Compensation>(found - std::begin(kNames));

@@ -68,9 +68,9 @@ enum class DiffuseModel : int { kLambert, kPublished, kRefit, kEon, kFitted };
 
 /// What a specular lobe gets back of the light that it loses to further bounces: nothing; scaled,
 /// what it lacks itself, so that a white furnace stays white, or of that what the simulated
-/// surfaces lack, or the first in the colour of a series of bounces; or a lobe beside it, Kulla and
-/// Conty's or Fdez-Aguera's.
-enum class Compensation : int { kOff, kLobe, kSimulated, kSeries, kKullaConty, kFdezAguera };
+/// surfaces lack, or the first in the colour of the mean reflectance; or a lobe beside it, Kulla
+/// and Conty's or Fdez-Aguera's.
+enum class Compensation : int { kOff, kLobe, kSimulated, kMean, kKullaConty, kFdezAguera };
 
 /// [ZK16] Sect. 4.5, ready for the device, with what selects the effects.
 struct Material {

@@ -198,8 +198,8 @@ Finding metalWay(const CheckContext& context, const Rival& rival) {
   return finding;
 }
 
-constexpr Rival kSeriesWay = {Compensation::kSeries, MetalCompensation::kScaled,
-                              reference::MetalWay::kSeries};
+constexpr Rival kMeanWay = {Compensation::kMean, MetalCompensation::kScaled,
+                            reference::MetalWay::kMean};
 constexpr Rival kKullaContyWay = {Compensation::kKullaConty, MetalCompensation::kKullaConty,
                                   reference::MetalWay::kKullaConty};
 constexpr Rival kFdezAgueraWay = {Compensation::kFdezAguera, MetalCompensation::kFdezAguera,
@@ -217,8 +217,8 @@ std::vector<Check> shadingChecks() {
           {"shading/cones_20deg", "relative error",
            [](const CheckContext& context) { return cones(context, 20); }},
           {"shading/compensation", "error of the energy that metals get back", compensation},
-          {"shading/compensation_series", "error in units of its bound",
-           [](const CheckContext& context) { return metalWay(context, kSeriesWay); }},
+          {"shading/compensation_mean", "error in units of its bound",
+           [](const CheckContext& context) { return metalWay(context, kMeanWay); }},
           {"shading/compensation_kulla_conty", "error in units of its bound",
            [](const CheckContext& context) { return metalWay(context, kKullaContyWay); }},
           {"shading/compensation_fdez_aguera", "error in units of its bound",

@@ -19,7 +19,7 @@ TEST(RoughMetal, AWhiteMirrorLosesNothing) {
     const RoughMetal metal(alpha);
     for (const double mu : {0.05, 0.3, 0.9})
       for (const MetalWay way :
-           {MetalWay::kTurquin, MetalWay::kSeries, MetalWay::kKullaConty, MetalWay::kFdezAguera})
+           {MetalWay::kTurquin, MetalWay::kMean, MetalWay::kKullaConty, MetalWay::kFdezAguera})
         EXPECT_NEAR(metal.albedo(way, 1, mu), 1, 1e-9) << alpha << " " << mu;
   }
 }
@@ -27,7 +27,7 @@ TEST(RoughMetal, AWhiteMirrorLosesNothing) {
 // The closed form of the albedo is the integral of the lobe.
 TEST(RoughMetal, AlbedosAreIntegrals) {
   const RoughMetal metal(0.6);
-  for (const MetalWay way : {MetalWay::kSingle, MetalWay::kTurquin, MetalWay::kSeries,
+  for (const MetalWay way : {MetalWay::kSingle, MetalWay::kTurquin, MetalWay::kMean,
                              MetalWay::kKullaConty, MetalWay::kFdezAguera})
     for (const double mu : {0.2, 0.8}) {
       const double integral = integrateDirections(
@@ -49,7 +49,7 @@ TEST(RoughMetal, KullaContyIsReciprocal) {
 // Every further bounce is darker: what colour gives back is less than a white mirror's share.
 TEST(RoughMetal, ColoursSaturate) {
   const RoughMetal metal(0.8);
-  for (const MetalWay way : {MetalWay::kSeries, MetalWay::kKullaConty, MetalWay::kFdezAguera}) {
+  for (const MetalWay way : {MetalWay::kMean, MetalWay::kKullaConty, MetalWay::kFdezAguera}) {
     const double single = metal.albedo(MetalWay::kSingle, 0.5, 0.5);
     const double given = metal.albedo(way, 0.5, 0.5) - single;
     EXPECT_GT(given, 0);

@@ -111,7 +111,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadValue{"diffuse_masking = 0.5", "needs diffuse_model published or refit"},
         BadValue{"diffuse_masking = 2", "expected a number in [0, 1]"},
         BadValue{"compensation = \"full\"",
-                 "is 'full', expected off, lobe, simulated, series, kulla_conty or fdez_aguera"},
+                 "is 'full', expected off, lobe, simulated, mean, kulla_conty or fdez_aguera"},
         BadValue{"albedo = 0.5\ncompensation = \"kulla_conty\"", "it needs albedo 0"},
         BadValue{"ndf = \"ggx\"\ncompensation = \"simulated\"", "is of Beckmann's facets"},
         BadValue{"palette = \"rainbow\"", "expected \"wheel\" or a list"},

@@ -22,7 +22,7 @@ constexpr Conductor kConductors[] = {
 constexpr CompensationWay kWays[] = {{"off", Compensation::kOff},
                                      {"lobe", Compensation::kLobe},
                                      {"simulated", Compensation::kSimulated},
-                                     {"series", Compensation::kSeries},
+                                     {"mean", Compensation::kMean},
                                      {"kulla_conty", Compensation::kKullaConty},
                                      {"fdez_aguera", Compensation::kFdezAguera}};
 
@@ -30,8 +30,8 @@ MetalWay metalWay(Compensation compensation) {
   switch (compensation) {
     case Compensation::kOff:
       return MetalWay::kSingle;
-    case Compensation::kSeries:
-      return MetalWay::kSeries;
+    case Compensation::kMean:
+      return MetalWay::kMean;
     case Compensation::kKullaConty:
       return MetalWay::kKullaConty;
     case Compensation::kFdezAguera:

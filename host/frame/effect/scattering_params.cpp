@@ -118,20 +118,15 @@ double meanReflectance(double f0) {
   return f0 + (1 - f0) / 21;
 }
 
-// What light that has met two facets or more keeps of its colour, over what it would at a
-// reflectance of 1: F^2 + F^3 q + F^4 q^2 ... times 1 - q, of which every further bounce has the
-// share q. [Kulla and Conty 2017]
-double seriesColour(double reflectance, double q) {
-  return reflectance * reflectance * (1 - q) / std::max(1 - reflectance * q, kLeastRoom);
-}
-
-// What the kernels multiply what is lost by.
+// What the kernels multiply what is lost by. `mean_energy` of one bounce.
 double bouncedColour(Compensation compensation, double f0, double mean_energy) {
   const double reflectance = meanReflectance(f0), q = 1 - mean_energy;
-  if (compensation == Compensation::kSeries) return seriesColour(reflectance, q) / reflectance;
-  if (compensation == Compensation::kKullaConty)
-    return seriesColour(reflectance, q) / (kPi * std::max(q, kLeastRoom));
-  return compensation == Compensation::kFdezAguera ? reflectance : f0;
+  if (compensation == Compensation::kMean || compensation == Compensation::kFdezAguera)
+    return reflectance;
+  if (compensation != Compensation::kKullaConty) return f0;
+  // Two bounces, three, and so on, of which each but the first is one of q again.
+  return reflectance * reflectance * (1 - q) /
+         (std::max(1 - reflectance * q, kLeastRoom) * kPi * std::max(q, kLeastRoom));
 }
 
 // Metals: what one bounce leaves out.
