@@ -10,6 +10,7 @@
 #include "host/cli/command_line.h"
 #include "host/core/error.h"
 #include "host/core/progress.h"
+#include "host/experiment/rank_watch.h"
 #include "host/parallel/ranks.h"
 #include "host/report/record/machine.h"
 #include "host/report/record/run_info.h"
@@ -62,6 +63,7 @@ void joinRanksOf(CommandLine& line) {
         "this command does not share its work among {} ranks; start it without mpirun, or share "
         "simulate, accuracy, bench or fit",
         launched().size));
+  watchRank();
   joinRanks();
   const Ranks& ranks = allRanks();
   if (!ranks.isFirst()) line.common.quiet = true;

@@ -28,6 +28,10 @@ void Progress::silenceAll() {
   all_are_silent = true;
 }
 
+bool Progress::areSilent() {
+  return all_are_silent;
+}
+
 Progress::~Progress() {
   clear();
 }

@@ -15,6 +15,7 @@ class Progress {
 
   /// Every Progress from now on is silent: --quiet, for those of functions that are not told of it.
   static void silenceAll();
+  static bool areSilent();
 
   /// Replaces the line by "[done/total] what"; `total` 0 leaves the counter out.
   void show(int done, int total, const std::string& what);

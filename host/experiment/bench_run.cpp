@@ -77,14 +77,6 @@ double timeLeft(const BenchOptions& options) {
   return std::max(kNext_s, options.max_time_s - secondsOfLostProcesses());
 }
 
-std::string fullName(const std::string& table, const std::string& case_name) {
-  return table + " " + case_name;
-}
-
-bool isLost(const std::string& name) {
-  return std::ranges::find(lostCases(), name, &LostCase::name) != lostCases().end();
-}
-
 // "zk16 snow/steep is lost: ...", a line each.
 std::string lostText() {
   std::string text;
@@ -169,7 +161,7 @@ void BenchRun::deal(Cases& cases, const std::vector<std::string>& metrics) {
   cases.records.resize(cases.names.size());
   std::vector<std::string> missing;
   for (std::size_t i = 0; ranks.isFirst() && i < cases.names.size(); ++i) {
-    if (isLost(fullName(cases.table, cases.names[i]))) continue;
+    if (isLost(cases.table, cases.names[i])) continue;
     cases.records[i] = loggedCase(cases.table, cases.names[i], metrics);
     if (cases.records[i].empty())
       missing.push_back(std::to_string(i));
@@ -215,7 +207,7 @@ void BenchRun::measureOne(Cases& cases, std::size_t index, std::size_t to_come) 
   if (Repetitions::Clock::now() < until_) {
     case_until_ = shareOf(table_until_, to_come);
     stopIfInterrupted();
-    const CaseAtHand at_hand(fullName(cases.table, name));
+    const CaseAtHand at_hand(cases.table, name);
     const TraceScope scope("case", isTracing() ? cases.table + "/" + name : std::string());
     const Timer timer = device_.clock().timer();
     message.records = cases.measure(name);

@@ -25,21 +25,29 @@ int runSurviving(bool quiet, const std::function<int(bool first)>& measure);
 
 /// Cases that processes before this one died in.
 const std::vector<LostCase>& lostCases();
+/// Is that case one of them?
+bool isLost(const std::string& table, const std::string& case_name);
 /// Throws DeviceError if there are none of `records` because every case was lost.
 void requireMeasured(std::size_t records);
 /// How long these processes took, in seconds.
 double secondsOfLostProcesses();
 
-/// As long as it lives, this process measures the case of that name.
+/// As long as it lives, this process measures that case, which is not lost; then again the one
+/// before. Where cases are measured together, each part that belongs to one alone says so.
 class CaseAtHand {
  public:
-  explicit CaseAtHand(const std::string& name);
+  CaseAtHand(const std::string& table, const std::string& case_name);
   ~CaseAtHand();
   CaseAtHand(const CaseAtHand&) = delete;
   CaseAtHand& operator=(const CaseAtHand&) = delete;
+
+ private:
+  std::string before_;
 };
 
-/// How a process ended, by the status that waitpid() gave.
-std::string howItEnded(int status);
+/// Lets children of this process tell it which case they are at; false if there is no memory.
+bool shareCaseAtHand();
+/// Where a child of this process is, or was when it ended: "zk16 snow/steep"; empty: in no case.
+std::string caseAtHand();
 
 }  // namespace glintmark

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "host/ocl/compiler_watch.h"
 #include "host/ocl/opencl.h"
 
 namespace glintmark {
@@ -47,6 +48,7 @@ Kernel Program::kernel(const std::string& name) const {
   BuiltProgram& built = *fromCache(impl_).built;
   std::shared_ptr<Kernel::Impl>& kernel = built.kernels[name];
   if (kernel) return Kernel(kernel);
+  const CompilerWatch compiler_watch(fmt::format("kernel '{}' of {}", name, built.file));
   try {
     auto made = std::make_shared<Kernel::Impl>();
     made->kernel = cl::Kernel(built.program, name.c_str());

@@ -11,6 +11,7 @@
 #include "host/core/stopwatch.h"
 #include "host/core/trace.h"
 #include "host/ocl/build_failure.h"
+#include "host/ocl/compiler_watch.h"
 #include "host/ocl/kernel_folder.h"
 #include "host/ocl/opencl.h"
 
@@ -104,6 +105,7 @@ Program ProgramCache::Impl::build(const std::string& file, const std::string& ow
   if (program->built) return Program(program);
 
   const TraceScope scope("build", file);
+  const CompilerWatch compiler_watch(file);
   const IncludePath include(folder);
   options += " -I " + include.path();
   std::optional<cl::Program> built;

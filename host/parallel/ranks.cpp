@@ -21,8 +21,7 @@
 namespace glintmark {
 namespace {
 
-// How long a rank lets the first speak for it, and one that was asked to stop waits for the end.
-constexpr std::chrono::milliseconds kFirstSpeaks{1500};
+// How long a rank that was asked to stop waits for the end.
 constexpr std::chrono::seconds kEndComes{20};
 
 class AloneRanks : public Ranks {
@@ -103,9 +102,12 @@ Launched launched() {
   return {};
 }
 
+bool hasLauncher() {
+  return std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr || launched().size > 1;
+}
+
 void joinRanks() {
-  const bool has_launcher = std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr || launched().size > 1;
-  if (joined || !has_launcher) return;
+  if (joined || !hasLauncher()) return;
   if (!std::filesystem::exists(modulePath(kMpiModule))) {
     if (launched().size == 1) return;
     throw Error(

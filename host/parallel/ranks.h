@@ -1,5 +1,6 @@
 // The processes that share one run: the ranks of mpirun, or this one alone.
 #pragma once
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -69,6 +70,12 @@ struct Launched {
   int rank = 0, size = 1;
 };
 Launched launched();
+
+/// Did a launcher start this process, perhaps as the only one?
+bool hasLauncher();
+
+/// How long a rank lets the first speak for it.
+inline constexpr std::chrono::milliseconds kFirstSpeaks{1500};
 
 /// Joins the ranks that the launcher started with this one; does nothing without a launcher. Throws
 /// Error if there are several and the program was built without MPI, or they cannot all be joined.

@@ -19,7 +19,7 @@
 #include "host/core/error.h"
 #include "host/core/stopwatch.h"
 #include "host/experiment/interrupt.h"
-#include "host/experiment/survival.h"
+#include "host/experiment/watched_child.h"
 #include "host/verify/check_result_json.h"
 
 namespace glintmark {

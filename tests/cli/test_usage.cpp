@@ -133,6 +133,8 @@ TEST(Usage, AFullStandardOutputIsAnError) {
   for (const std::string& words :
        {std::string("--help"), std::string("--version"), std::string("info"),
         "render screen_plane --size 32x18 --quiet -o " + (folder / "a.png").string(),
+        "diff " + (folder / "a.png").string() + " " + (folder / "a.png").string(),
+        "export screen_plane --size 32x18 --quiet -o " + (folder / "scene").string(),
         std::string("heatmap screen_plane --size 32x18 --quiet"),
         std::string("simulate --rays 1000 --quiet"),
         std::string("verify --only ^maths/ --quiet")}) {

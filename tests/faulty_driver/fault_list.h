@@ -17,6 +17,7 @@
 //   global=N          launches of more than N work-items are refused
 //   no_arg_info       parameters of kernels have no names
 //   build=TEXT        the process dies when a program is built whose options hold TEXT
+//   build_s=SECONDS   building any program takes so long
 //   resources=KERNEL  launches of it fail with CL_OUT_OF_RESOURCES
 //   crash=KERNEL      the process dies at its launch
 //   exit=KERNEL       the process ends with exit code 7 at its launch

@@ -129,6 +129,17 @@ TEST(Selection, NamesThatSeveralDevicesHaveAreRefused) {
   EXPECT_NE(by_index.out.find("chosen: device 1 "), std::string::npos) << by_index.out;
 }
 
+TEST(Builds, ACompilerThatTakesLongIsSaid) {
+  const TempFolder folder;
+  const ProcessResult result = runFaulty(
+      {"render", "screen_plane", "--size", "32x18", "-o", folder / "o.exr"}, "build_s=11");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(countOf(result.err,
+                    "note: the driver has been compiling shade.cl for 10 s and is not done\n"),
+            1u)
+      << result.err;
+}
+
 TEST(Launches, AnErrorNamesTheKernel) {
   const TempFolder folder;
   const ProcessResult result = runFaulty(render(folder / "o.exr"), "resources=shade");

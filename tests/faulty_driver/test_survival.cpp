@@ -189,6 +189,56 @@ TEST(Bench, ACompilerThatDiesCostsTheCaseAtHand) {
   EXPECT_EQ(std::ranges::count(whole.records, "shading_ms", &Record::metric), 4);
 }
 
+// Methods are measured together, and lost one by one.
+TEST(Bench, ACompilerThatDiesOfAMethodCostsThatMethodAlone) {
+  const TempFolder folder;
+  const ProcessResult result =
+      runFaulty({"bench", "tao21", "--scene", "area_glass", "--view", "far", "--size", "32x18",
+                 "--reps", "1", "-o", folder / "r"},
+                "build=LTC_METHOD=1");
+  EXPECT_EQ(result.exit_code, 1) << result.err << result.out;
+  EXPECT_EQ(countOf(result.out, " is lost: "), 1u) << result.out;
+  EXPECT_NE(result.out.find("tao21 area_glass/far/tao21 is lost: its process ended by signal 11"),
+            std::string::npos)
+      << result.out;
+  const Results results = readResults(folder / "r/results.json");
+  EXPECT_EQ(std::ranges::count(results.records, "shading_ms", &Record::metric), 3);
+}
+
+TEST(Bench, ACompilerThatDiesOfANormalMethodCostsThatMethodAlone) {
+  const TempFolder folder;
+  const ProcessResult result = runFaulty({"bench", "tan05", "--scene", "desert", "--view", "far",
+                                          "--reps", "1", "--width", "16", "-o", folder / "r"},
+                                         "build=NORMAL_METHOD=vmf_lobes");
+  EXPECT_EQ(result.exit_code, 1) << result.err << result.out;
+  EXPECT_EQ(countOf(result.out, " is lost: "), 1u) << result.out;
+  EXPECT_NE(result.out.find("tan05 desert/far/vmf_lobes is lost: its process ended by signal 11"),
+            std::string::npos)
+      << result.out;
+  const Results results = readResults(folder / "r/results.json");
+  EXPECT_EQ(std::ranges::count(results.records, "fps", &Record::metric), 11);
+}
+
+// A rank has nobody to go on in its place: what ended the run is said in one sentence.
+TEST(Bench, ADriverThatEndsARankIsSaidOnce) {
+  if (!canShareRanks()) GTEST_SKIP() << "mpirun or glintmark_mpi.so is not here";
+  for (const auto& [faults, how] :
+       {std::pair("crash=shade", "signal 11"), std::pair("exit=shade", "exit code 7")}) {
+    const TempFolder folder;
+    std::vector<std::string> environment = faultyEnvironment(faults);
+    environment.emplace_back("POCL_DEVICES=pthread pthread");
+    const ProcessResult result = runByRanks(2,
+                                            {"bench", "zk16", "--quiet", "--scene", "screen_plane",
+                                             "--size", "64x36", "--reps", "1", "-o", folder / "r"},
+                                            environment);
+    EXPECT_NE(result.exit_code, 0);
+    EXPECT_EQ(countOf(result.err, "glintmark: "), 1u) << result.err;
+    EXPECT_NE(result.err.find("of 2: its process ended "), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find(how), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find(" in zk16 screen_plane/"), std::string::npos) << result.err;
+  }
+}
+
 TEST(Bench, ADriverThatDiesInEveryCaseIsNoUsableDevice) {
   const TempFolder folder;
   const ProcessResult result = runFaulty({"bench", "zk16", "--quiet", "--scene", "screen_plane",

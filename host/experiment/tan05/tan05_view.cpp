@@ -8,6 +8,7 @@
 #include "host/experiment/frame_timing.h"
 #include "host/experiment/frame_truth.h"
 #include "host/experiment/shifted_view.h"
+#include "host/experiment/survival.h"
 #include "host/experiment/tan05/tan05_table.h"
 #include "host/report/metrics.h"
 #include "host/report/picture/picture_strip.h"
@@ -55,6 +56,20 @@ std::unique_ptr<FrameRenderer> methodFrame(BenchRun& run, const Tan05Scene& scen
   options.peaks = method.peaks;
   if (method.probes_across > 0) options.probes_across = method.probes_across;
   return preparedFrame(run, scene.scene, view, options, scene.textures);
+}
+
+std::string caseOf(const Tan05Scene& scene, const std::string& view_name,
+                   const Tan05Method& method) {
+  return CaseName{{scene.scene.name, view_name, method.name}}.text();
+}
+
+// Those in which no driver has died: the others are measured without them.
+std::vector<Tan05Method> methodsLeft(const Tan05Scene& scene, const std::string& view_name) {
+  std::vector<Tan05Method> methods = tan05Methods();
+  std::erase_if(methods, [&](const Tan05Method& method) {
+    return isLost(tan05Spec().name, caseOf(scene, view_name, method));
+  });
+  return methods;
 }
 
 // The display pictures of a zoom-out by one method, whole frames.
@@ -202,7 +217,9 @@ Tan05View measureTan05View(BenchRun& run, const Tan05Scene& scene, const View& v
   std::vector<Image> images;
   std::vector<std::pair<std::string, Image>> pictures = {
       {"truth", display(truth.radiance, scene.scene)}};
-  for (const Tan05Method& method : tan05Methods()) {
+  const std::vector<Tan05Method> methods = methodsLeft(scene, view.name);
+  for (const Tan05Method& method : methods) {
+    const CaseAtHand at_hand(tan05Spec().name, caseOf(scene, view.name, method));
     renderers.push_back(methodFrame(run, scene, view, settings, method));
     images.push_back(renderers.back()->readRadiance());
     pictures.emplace_back(method.name, display(images.back(), scene.scene));
@@ -211,8 +228,9 @@ Tan05View measureTan05View(BenchRun& run, const Tan05Scene& scene, const View& v
 
   Tan05View result;
   for (std::size_t m = 0; m < renderers.size(); ++m) {
-    const Tan05Method& method = tan05Methods()[m];
-    const std::string name = CaseName{{scene.scene.name, view.name, method.name}}.text();
+    const Tan05Method& method = methods[m];
+    const std::string name = caseOf(scene, view.name, method);
+    const CaseAtHand at_hand(tan05Spec().name, name);
     const std::vector<Image> zoom = zoomFrames(scene, view, [&](const View& moved) {
       return methodFrame(run, scene, moved, settings, method)->readRadiance();
     });
@@ -231,19 +249,21 @@ Tan05View measureTan05View(BenchRun& run, const Tan05Scene& scene, const View& v
 
 Tan05View measureTan05Distance(BenchRun& run, const Tan05Scene& scene, const View& view,
                                const std::string& view_name, const Tan05Settings& settings) {
+  const std::vector<Tan05Method> methods = methodsLeft(scene, view_name);
   std::map<std::string, std::vector<Tan05Errors>> errors;
   for (const auto& [right_px, up_px] : kShifts_px) {
     const View shifted = shiftedView(view, right_px, up_px, settings.shading.height_px);
     const Truth truth = measureTruth(run, scene, shifted, settings);
-    for (const Tan05Method& method : tan05Methods())
+    for (const Tan05Method& method : methods) {
+      const CaseAtHand at_hand(tan05Spec().name, caseOf(scene, view_name, method));
       errors[method.name].push_back(errorsOf(
           scene.scene, methodFrame(run, scene, shifted, settings, method)->readRadiance(), truth));
+    }
   }
   Tan05View result;
-  for (const Tan05Method& method : tan05Methods()) {
-    const std::string name = CaseName{{scene.scene.name, view_name, method.name}}.text();
-    addErrors(run, name, meanErrors(errors[method.name]), result.records[method.name]);
-  }
+  for (const Tan05Method& method : methods)
+    addErrors(run, caseOf(scene, view_name, method), meanErrors(errors[method.name]),
+              result.records[method.name]);
   return result;
 }
 

@@ -7,6 +7,7 @@
 
 #include "host/experiment/frame_timing.h"
 #include "host/experiment/frame_truth.h"
+#include "host/experiment/survival.h"
 #include "host/experiment/tao21/tao21_table.h"
 #include "host/report/metrics.h"
 #include "host/report/picture/picture_strip.h"
@@ -15,20 +16,37 @@
 namespace glintmark {
 namespace {
 
-constexpr int kMethodCount = static_cast<int>(kTao21Methods.size());
+struct MethodCase {
+  LtcMethod method;
+  std::string method_name, case_name;
+};
 
-ShadingOptions methodOptions(ShadingOptions options, int method) {
-  options.ltc_method = static_cast<LtcMethod>(method);
-  return options;
+// Those of a view in which no driver has died: the others are measured without them.
+std::vector<MethodCase> casesLeft(const CaseName& view_name) {
+  std::vector<MethodCase> cases;
+  for (std::size_t m = 0; m < kTao21Methods.size(); ++m) {
+    const std::string name = tao21Case(view_name, kTao21Methods[m]).text();
+    if (!isLost(tao21Spec().name, name))
+      cases.push_back({static_cast<LtcMethod>(m), std::string(kTao21Methods[m]), name});
+  }
+  return cases;
+}
+
+std::unique_ptr<FrameRenderer> methodFrame(BenchRun& run, const Scene& scene, const View& view,
+                                           ShadingOptions options, const MethodCase& one) {
+  const CaseAtHand at_hand(tao21Spec().name, one.case_name);
+  options.ltc_method = one.method;
+  return preparedFrame(run, scene, view, options);
 }
 
 // Kernel event times [ms] of every method, in turn.
 std::vector<Samples> measureTimes(BenchRun& run, const Scene& scene, const View& view,
-                                  const Tao21Settings& settings) {
+                                  const Tao21Settings& settings,
+                                  const std::vector<MethodCase>& cases) {
   std::vector<std::unique_ptr<FrameRenderer>> renderers;
-  renderers.reserve(kMethodCount);
-  for (int m = 0; m < kMethodCount; ++m)
-    renderers.push_back(preparedFrame(run, scene, view, methodOptions(settings.shading, m)));
+  renderers.reserve(cases.size());
+  for (const MethodCase& one : cases)
+    renderers.push_back(methodFrame(run, scene, view, settings.shading, one));
   return shadeInTurn(renderers, run.reps());
 }
 
@@ -62,7 +80,8 @@ CaseName tao21Case(const CaseName& view, std::string_view method) {
 Tao21View measureTao21View(BenchRun& run, const Scene& scene, const View& view,
                            const CaseName& view_name) {
   const Tao21Settings settings = tao21Settings(run);
-  const std::vector<Samples> times_ms = measureTimes(run, scene, view, settings);
+  const std::vector<MethodCase> cases = casesLeft(view_name);
+  const std::vector<Samples> times_ms = measureTimes(run, scene, view, settings, cases);
   const ShadingOptions& small = settings.errors;
   const ReplicatedTruth truth = truthOf(run, scene, view, small, settings.truth_spp);
   const Image& truth_image = truth.images.mean;
@@ -80,19 +99,18 @@ Tao21View measureTao21View(BenchRun& run, const Scene& scene, const View& view,
   const double exposure = scene.post.exposure;
   const std::string size =
       fmt::format("at {}x{}, {} samples", small.width_px, small.height_px, settings.truth_spp);
-  for (int m = 0; m < kMethodCount; ++m) {
-    const std::string method(kTao21Methods[static_cast<std::size_t>(m)]);
-    const Image image = preparedFrame(run, scene, view, methodOptions(small, m))->readRadiance();
+  for (std::size_t m = 0; m < cases.size(); ++m) {
+    const std::string& method = cases[m].method_name;
+    const Image image = methodFrame(run, scene, view, small, cases[m])->readRadiance();
     const Image row = coveredPixels(image);
     const bool sane = isSane(image) && truth_sane;
-    const std::string name = tao21Case(view_name, method).text();
     std::vector<Record>& records = result.records[method];
     const auto add = [&](const char* metric, const Samples& samples, const std::string& note) {
-      records.push_back(run.record(tao21Spec(), name, metric, samples, note));
+      records.push_back(run.record(tao21Spec(), cases[m].case_name, metric, samples, note));
       records.back().valid = sane;
       if (!sane) records.back().note = "not valid: radiance is negative, not finite or missing";
     };
-    add("shading_ms", times_ms[static_cast<std::size_t>(m)], "kernel events, methods in turn");
+    add("shading_ms", times_ms[m], "kernel events, methods in turn");
     records.back().paper = kTao21FrameMs;
     add("rel_mse", {sane ? relMse(row, truth_row) : 0}, size);
     add("colour_error",
