@@ -18,7 +18,8 @@ std::vector<Record> stageRecords(const std::string& setting, double value) {
     for (const char* metric :
          {"error", "truth_stderr", "lobes_error", "tent_error", "bias", "variance_ratio",
           "dark_share", "truth_dark_share", "largest_of_bound", "correlation", "motion_ratio",
-          "error_swing", "variance_swing", "dark_swing", "largest_swing", "correlation_swing"}) {
+          "zoom_ratio", "octave_correlation", "error_swing", "variance_swing", "dark_swing",
+          "largest_swing", "correlation_swing"}) {
       // Of lambda, so that a mean over aspects is told from one over lambdas.
       records.push_back(
           sampleRecord(glintStageCase("glints/" + setting, stage), metric, value * stage.lambda));

@@ -136,6 +136,18 @@ std::string tableOf(std::span<const Record> records, std::span<const StageColumn
   return table.toString();
 }
 
+// Empty for runs that did not measure it.
+std::string growthText(std::span<const Record> records) {
+  if (stageCases(records, kGrowths[0].metric).empty()) return "";
+  return "\nHow pixels change while the camera moves away and their microdetails stay. change: "
+         "where\n"
+         "they grow by a 16th of an octave, over the truth's; swing: of that, from level to "
+         "level.\n"
+         "octave: correlation with the same twice as long and wide, 1/2 of microdetails that "
+         "stay\n" +
+         tableOf(records, kGrowths);
+}
+
 }  // namespace
 
 std::vector<Record> glintStageRecords(const BenchRun& run, const std::string& case_name,
@@ -202,15 +214,8 @@ std::string glintStageText(std::span<const Record> records) {
       "its\n"
       "bound 1/p. corr.: with the next pixel. Last: the truth's other forms, and one binomial a "
       "pixel.\n\n"
-      "How much these move over a zoom by two, n kept: greatest less least of {} steps\n{}\n"
-      "How pixels change while the camera moves away and their microdetails stay. change: where "
-      "they "
-      "grow\n"
-      "by a 16th of an octave, over the truth's; swing: of that, from level to level. octave: "
-      "correlation\n"
-      "with the same twice as long and wide, which of microdetails that stay is 1/2\n{}",
-      tableOf(records, kFigures), kGlintZoomSteps, tableOf(records, kSwings),
-      tableOf(records, kGrowths));
+      "How much these move over a zoom by two, n kept: greatest less least of {} steps\n{}{}",
+      tableOf(records, kFigures), kGlintZoomSteps, tableOf(records, kSwings), growthText(records));
 }
 
 }  // namespace glintmark
