@@ -75,10 +75,12 @@ std::vector<glm::vec3> lightPoints(KernelBench& bench, const AreaLightProbe& pro
   Buffer out(bench.device, 3 * stride * 4, BufferPurpose::kProbe);
   const Pictures pictures = picturesOf(probe.lights);
   const bool textured = !pictures.layouts.empty();
-  std::vector<KernelArg> args = {probeData(bench, pointPlanes(points, stride)),
-                                 probeData(bench, std::vector{probe.material}),
-                                 probeData(bench, prepareAreaLights(probe.lights, glm::dvec3(0))),
-                                 probeData(bench, tableValues(probe))};
+  std::vector<KernelArg> args;
+  args.reserve(10);
+  args.push_back(probeData(bench, pointPlanes(points, stride)));
+  args.push_back(probeData(bench, std::vector{probe.material}));
+  args.push_back(probeData(bench, prepareAreaLights(probe.lights, glm::dvec3(0))));
+  args.push_back(probeData(bench, tableValues(probe)));
   if (textured) {
     args.push_back(probeData(bench, pictures.layouts));
     args.push_back(probeData(bench, pictures.texels));
