@@ -143,8 +143,8 @@ WIDE vfloat3 shadeSample(const SurfaceSample* sample, constant const FrameParams
   const vfloat3 ratio = {(vfloat)(1.0f), (vfloat)(1.0f), (vfloat)(1.0f)};
   vfloat3 share = {(vfloat)(1.0f), (vfloat)(1.0f), (vfloat)(1.0f)};
 #if ALBEDO_SCALING
-  share = diffuseShare(lobeAlbedo(sample->view.z, &material->surface), noGain(),
-                       &material->surface);
+  share =
+      diffuseShare(lobeAlbedo(sample->view.z, &material->surface), noGain(), &material->surface);
 #endif
   const SurfaceAlpha alpha = surfaceAlpha(material->surface.alpha_g);
   const SmithLambda lambda_view = smithLambda(sample->view, alpha);

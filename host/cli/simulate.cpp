@@ -48,6 +48,8 @@ void refuseIdleOptions(const SimulateOptions& options, const SimulationSettings&
     throw Error("--ior is for metals and dielectrics; diffuse surfaces have --albedo");
   if (options.k_given && settings.kind != SurfaceKind::kMetal)
     throw Error("--k is for metals alone; add --surface metal");
+  if (settings.f0 && (options.ior_given || options.k_given))
+    throw Error("--f0 stands in place of --ior and --k; leave those out, or --f0");
 }
 
 SurfaceKind parseSurface(const std::string& name) {

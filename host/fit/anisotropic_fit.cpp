@@ -28,7 +28,8 @@ constexpr AnisotropicSampleCounts kAlbedoCounts = {.facet_radial = 96,
 
 class AnisotropicFit {
  public:
-  AnisotropicFit(const AnisotropicFitOptions& options) : options_(options), cells_(ANISO_CELLS) {}
+  explicit AnisotropicFit(const AnisotropicFitOptions& options)
+      : options_(options), cells_(ANISO_CELLS) {}
 
   AnisotropicTable run() {
     overViews([this](int view) { fitView(view); });

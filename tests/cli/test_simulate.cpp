@@ -38,6 +38,11 @@ TEST(Simulate, ImpossibleOptionsAreRefused) {
                           {"--correlation is for --model heights"});
   expectRefusedSimulation({"--ior", "1.4"}, {"--ior is for metals and dielectrics"});
   expectRefusedSimulation({"--surface", "dielectric", "--k", "1"}, {"--k is for metals alone"});
+  expectRefusedSimulation({"--surface", "metal", "--f0", "0.9", "--k", "3"},
+                          {"--f0 stands in place of --ior and --k"});
+  expectRefusedSimulation({"--f0", "0.9"}, {"reflectance f0", "metals"});
+  expectRefusedSimulation({"--surface", "metal", "--f0", "0"}, {"reflectance f0 0", "0.001 to 1"});
+  expectRefusedSimulation({"--surface", "metal", "--tint", "0.5"}, {"tint", "f0"});
   expectRefusedSimulation({"--model", "smith", "--surface", "dielectric"},
                           {"Smith's walk", "diffuse surfaces and metals"});
   for (const char* alpha : {"0", "-1", "3", "nan"})
@@ -107,8 +112,9 @@ TEST(Simulate, SaysRoughnessAndBalanceAndDrawsPictures) {
   const TempFolder folder;
   for (const char* surface : {"diffuse", "metal", "dielectric"}) {
     const std::string picture = folder / (std::string(surface) + ".png");
-    const ProcessResult result =
-        simulate({"--surface", surface, "--k", "3", "--rays", "20000", "-o", picture});
+    std::vector<std::string> options = {"--surface", surface, "--rays", "20000", "-o", picture};
+    if (surface == std::string("metal")) options.insert(options.end(), {"--k", "3"});
+    const ProcessResult result = simulate(options);
     ASSERT_EQ(result.exit_code, 0) << result.err;
     for (const char* part : {"energy above", "counted 1.000000000 of the rays", "nominal",
                              "effective", "slope variance"})

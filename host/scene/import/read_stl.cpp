@@ -7,12 +7,10 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <memory>
 #include <optional>
 
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
-#include "host/core/free_memory.h"
 #include "host/scene/import/distinct_values.h"
 #include "host/scene/import/text_scanner.h"
 #include "host/scene/import/vertex_table.h"
@@ -31,12 +29,20 @@ struct Corner {
   glm::vec3 place;
   std::uint32_t surface = 0;
 
-  bool operator==(const Corner&) const = default;
+  // By bits: places that are no numbers, equal to nothing, would make the table a list. + 0: the
+  // two zeros are one place.
+  std::array<std::uint32_t, 3> bits() const {
+    std::array<std::uint32_t, 3> words{};
+    for (int i = 0; i < 3; ++i)
+      words[static_cast<std::size_t>(i)] = std::bit_cast<std::uint32_t>(place[i] + 0.0f);
+    return words;
+  }
+  bool operator==(const Corner& other) const {
+    return surface == other.surface && bits() == other.bits();
+  }
   std::uint64_t hash() const {
     std::uint64_t value = surface;
-    // + 0: the two zeros are one place.
-    for (int i = 0; i < 3; ++i)
-      value = mixedHash(value, std::bit_cast<std::uint32_t>(place[i] + 0.0f));
+    for (const std::uint32_t word : bits()) value = mixedHash(value, word);
     return value;
   }
 };
