@@ -20,7 +20,8 @@ TEST(BadScenes, TheBaseSceneLoads) {
 }
 
 TEST(BadScenes, MissingScene) {
-  expectMessage(errorOf([] { load("snowman"); }), {"unknown scene 'snowman'; scenes in", "snow", "car"});
+  expectMessage(errorOf([] { load("snowman"); }),
+                {"unknown scene 'snowman'; scenes in", "snow", "car"});
   expectMessage(errorOf([] { load(""); }), {"scenes in"});
   expectMessage(errorOf([] { load("../scenes/snow"); }), {"scenes in"});
   expectMessage(errorOf([] { load("nowhere/x.toml"); }), {"nowhere/x.toml"});
@@ -146,7 +147,8 @@ TEST(BadScenes, UnknownView) {
   const TemporaryFolder folder;
   const Scene scene = load(folder.write("scene.toml", sceneText()));
   EXPECT_EQ(scene.view("front").name, "front");
-  expectMessage(errorOf([&] { scene.view("back"); }), {"unknown view 'back'; views of scene scene are front"});
+  expectMessage(errorOf([&] { scene.view("back"); }),
+                {"unknown view 'back'; views of scene scene are front"});
 }
 
 TEST(BadScenes, PartsOfUnknownMaterials) {
