@@ -24,8 +24,8 @@ namespace glintmark {
 namespace {
 
 constexpr double kSaveEvery_ns = 10e9;
-const std::vector<std::string> kSurfaces = {"diffuse", "metal", "dielectric"};
-const std::vector<std::string> kModels = {"heights", "smith"};
+const std::vector<std::string> kSurfaceNames = {"diffuse", "metal", "dielectric"};
+const std::vector<std::string> kModelNames = {"heights", "smith"};
 
 struct SimulateOptions {
   std::string surface = "diffuse", model = "heights";
@@ -56,13 +56,13 @@ SurfaceKind parseSurface(const std::string& name) {
   if (name == "diffuse") return SurfaceKind::kDiffuse;
   if (name == "metal") return SurfaceKind::kMetal;
   if (name == "dielectric") return SurfaceKind::kDielectric;
-  throw Error(unknownName("surface", name, kSurfaces));
+  throw Error(unknownName("surface", name, kSurfaceNames));
 }
 
 SurfaceModel parseModel(const std::string& name) {
   if (name == "heights") return SurfaceModel::kHeights;
   if (name == "smith") return SurfaceModel::kSmith;
-  throw Error(unknownName("model", name, kModels));
+  throw Error(unknownName("model", name, kModelNames));
 }
 
 SimulationSettings makeSettings(const SimulateOptions& options) {
