@@ -347,6 +347,7 @@ constexpr char kRenderExamples[] =
     "  glintmark render car -o car.png --aov planes.exr --set material.paint.log_density=7\n"
     "  glintmark render disk -o truth.exr --truth 256 && glintmark render disk -o lean.exr \\\n"
     "    --normal-method lean && glintmark diff lean.exr truth.exr -o error.png\n"
+    "  glintmark render disk --view oblique -o relief.exr --truth 64 --displaced\n"
     "  glintmark render snow -o snow.png --frames 24 --path orbit --step 0.5\n"
     "  glintmark render snow -o snow.png --trace trace.json    (open it at ui.perfetto.dev)";
 
