@@ -16,6 +16,7 @@
 #include "host/experiment/run_inputs.h"
 #include "host/experiment/zoom_strip.h"
 #include "host/frame/background.h"
+#include "host/frame/displaced_truth.h"
 #include "host/frame/frame_renderer.h"
 #include "host/frame/ground_truth.h"
 #include "host/frame/shading_options.h"
@@ -45,7 +46,8 @@ struct RenderOptions {
   std::string size = "1920x1080";
   ShadingFlags flags{choiceName(kRenderMethod)};
   int truth_spp = 0;  // 0: a frame
-  int frames = 0;     // of a path; 0: one picture, without a number
+  bool displaced = false;
+  int frames = 0;  // of a path; 0: one picture, without a number
   std::string path;
   double step = 0.1;
   bool frames_given = false, step_given = false;
@@ -137,6 +139,8 @@ void checkRenderOptions(const RenderOptions& options) {
   if (options.truth_spp < 0 || options.truth_spp > kMostTruthSpp)
     throw Error(fmt::format("--truth {} is not from 1 to {} samples a pixel", options.truth_spp,
                             kMostTruthSpp));
+  if (options.displaced && (options.truth_spp == 0 || options.frames_given))
+    throw Error("--displaced is a kind of one truth; it goes with --truth, not with --frames");
   if (options.frames_given && (options.frames < 1 || options.frames > kMostFrames))
     throw Error(fmt::format("--frames {} is not from 1 to {}", options.frames, kMostFrames));
   if (options.frames_given != !options.path.empty())
@@ -175,6 +179,18 @@ Image renderedTruth(const CommandLine& line, Device& device, const Scene& scene,
              scene.name, view.name, shading.width_px, shading.height_px, spp,
              mean > 0 ? error / mean : 0.0);
   return std::move(truth.mean);
+}
+
+Image renderedRelief(const CommandLine& line, const Scene& scene, const View& view,
+                     const ShadingOptions& shading, int spp) {
+  Progress progress(line.common.quiet);
+  Image truth = renderDisplacedTruth(
+      scene, view, {.width_px = shading.width_px, .height_px = shading.height_px, .spp = spp},
+      [&](int rows) { progress.show(rows, shading.height_px, "rows"); });
+  progress.clear();
+  fmt::print("{}/{} {}x{}: {} samples a pixel of the displaced surface\n", scene.name, view.name,
+             shading.width_px, shading.height_px, spp);
+  return truth;
 }
 
 bool isBlack(const Image& radiance) {
@@ -293,7 +309,9 @@ int runRender(const CommandLine& line, const RenderOptions& options) {
   if (options.frames_given)
     return renderPath(line, options, device, scene, view, shading, factsOf(run));
   if (options.truth_spp > 0) {
-    Image radiance = renderedTruth(line, device, scene, view, shading, options.truth_spp);
+    Image radiance = options.displaced
+                         ? renderedRelief(line, scene, view, shading, options.truth_spp)
+                         : renderedTruth(line, device, scene, view, shading, options.truth_spp);
     const int code = judgePicture(radiance, scene, view);
     writeRendered(std::move(radiance), options, scene, view, factsOf(run));
     return code;
@@ -328,6 +346,7 @@ constexpr char kRenderExamples[] =
     "  glintmark render car -o car.png --aov planes.exr --set material.paint.log_density=7\n"
     "  glintmark render disk -o truth.exr --truth 256 && glintmark render disk -o lean.exr \\\n"
     "    --normal-method lean && glintmark diff lean.exr truth.exr -o error.png\n"
+    "  glintmark render disk --view oblique -o relief.exr --truth 64 --displaced\n"
     "  glintmark render snow -o snow.png --frames 24 --path orbit --step 0.5\n"
     "  glintmark render snow -o snow.png --trace trace.json    (open it at ui.perfetto.dev)";
 
@@ -366,6 +385,8 @@ void addRenderCommand(Command app, CommandLine& line) {
       .option("--zoom", options->zoom,
               "Strip of pictures over so many octaves, through ever narrower fields of view")
       .typeName("OCTAVES");
+  command.flag("--displaced", options->displaced,
+               "With --truth: heights of the map stand up from a flat mesh, hide and shade");
   command.flag("--no-glints", options->no_glints, "Smooth lobes in place of glints");
   const CommandOption star = command.flag("--star,!--no-star", options->star,
                                           "Star-shaped glare (default: the scene's for PNG)");

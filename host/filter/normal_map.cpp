@@ -143,6 +143,7 @@ NormalMap normalsFromHeights(const Image& heights, double height_scale, const st
   const int width = heights.width, height = heights.height;
   NormalMap map{name, width, height, {}};
   map.normals.reserve(static_cast<std::size_t>(width) * height);
+  map.heights.reserve(static_cast<std::size_t>(width) * height);
   const auto value = [&](int x, int y) { return static_cast<double>(heights.at(x, y)[0]); };
   for (int y = 0; y < height; ++y) {
     const int below = (y + height - 1) % height, above = (y + 1) % height;
@@ -151,6 +152,7 @@ NormalMap normalsFromHeights(const Image& heights, double height_scale, const st
       const double du = 0.5 * width * height_scale * (value(right, y) - value(left, y));
       const double dv = 0.5 * height * height_scale * (value(x, above) - value(x, below));
       map.normals.push_back(liftToHorizon(glm::vec3(glm::normalize(glm::dvec3(-du, -dv, 1)))));
+      map.heights.push_back(static_cast<float>(height_scale * value(x, y)));
     }
   }
   return map;

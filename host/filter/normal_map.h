@@ -25,6 +25,8 @@ struct NormalMap {
   int width_px = 0;
   int height_px = 0;
   std::vector<glm::vec3> normals;
+  /// What the normals are of, in units of the map's side; empty of a map that was read as normals.
+  std::vector<float> heights{};
 
   const glm::vec3& at(int x, int y) const {
     return normals[static_cast<std::size_t>(y) * width_px + x];

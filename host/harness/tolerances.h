@@ -190,6 +190,10 @@ inline constexpr double kCouplingTolerance = 5e-3;
 /// lobes: cos^n falls off later.
 inline constexpr double kTiltedLobe = 0.005, kGaussianOfNormals = 0.045, kPhongPeaks = 0.12;
 
+/// What facets of LEADR show, relative: a few texels between slopes; and nine points a side for a
+/// diffuse mean whose clamps have kinks, from 15 degrees over slopes of a deviation of 1.
+inline constexpr double kLeadrHighlight = 0.01, kLeadrDiffuse = 0.12;
+
 /// Multiple scattering, relative to a Lambertian lobe's radiance: single precision and the
 /// polynomials in a cosine.
 inline constexpr double kScatterTolerance = 5e-4;

@@ -39,6 +39,7 @@ std::vector<Check> textureChecks();       // fetches along footprints
 std::vector<Check> lobeChecks();          // Gaussians of normals
 std::vector<Check> convolutionChecks();   // against means over normals and pixels
 std::vector<Check> normalMethodChecks();  // every method of mapped normals
+std::vector<Check> leadrChecks();         // facets of a displaced surface
 std::vector<Check> mixtureChecks();       // their fit
 std::vector<Check> scatterChecks();       // multiple scattering
 std::vector<Check> frameChecks();         // whole frames: mapped normals, one pixel, nothing at all

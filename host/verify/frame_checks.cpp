@@ -65,7 +65,8 @@ struct NamedMethod {
 constexpr NamedMethod kMethods[] = {
     {"mip", NormalMethod::kMip},           {"fixed", NormalMethod::kFixed},
     {"toksvig", NormalMethod::kToksvig},   {"lean", NormalMethod::kLean},
-    {"fournier", NormalMethod::kFournier}, {"gmm", NormalMethod::kGmm}};
+    {"fournier", NormalMethod::kFournier}, {"gmm", NormalMethod::kGmm},
+    {"leadr", NormalMethod::kLeadr}};
 
 // Near and far, at 8 degrees: every value is a radiance, and one lane gives the same bits.
 Finding mappedNormals(const CheckContext& context, NormalMethod method) {

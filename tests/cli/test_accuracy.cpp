@@ -103,7 +103,7 @@ TEST(Accuracy, FramesAgainstASupersampledTruth) {
   ASSERT_EQ(result.exit_code, 0) << result.err << result.out;
   auto errors = figuresOf(folder, "error"), ratios = figuresOf(folder, "time_ratio"),
        truth = figuresOf(folder, "truth_stderr");
-  EXPECT_EQ(errors.size(), 19u);
+  EXPECT_EQ(errors.size(), 20u);
   // The default is one measurement under every knob.
   for (const char* name : {"gmm/lobes=4", "gmm/texels=float"}) {
     EXPECT_EQ(ratios[name], 1) << name;

@@ -28,6 +28,18 @@ std::vector<std::string> tan05Views() {
   return {"near", "far", "oblique"};
 }
 
+std::vector<std::string> distanceViews() {
+  std::vector<std::string> views;
+  for (const double distance : kTan05Distances) views.push_back(tan05DistanceView(distance));
+  return views;
+}
+
+std::vector<std::string> allViews() {
+  std::vector<std::string> views = tan05Views();
+  for (std::string& view : distanceViews()) views.push_back(std::move(view));
+  return views;
+}
+
 bool hasView(const std::string& scene, const std::string& view) {
   return view != "oblique" || scene == "disk";
 }
@@ -45,9 +57,9 @@ std::vector<std::string> viewCases(const BenchOptions& options) {
 std::vector<std::string> distanceCases(const BenchOptions& options) {
   std::vector<std::string> cases;
   for (const std::string& scene : selectNames(tan05Scenes(), options.scenes))
-    for (const double distance : kTan05Distances)
+    for (const std::string& view : selectNames(distanceViews(), options.views))
       for (const Tan05Method& method : tan05Methods())
-        cases.push_back(CaseName{{scene, tan05DistanceView(distance), method.name}}.text());
+        cases.push_back(CaseName{{scene, view, method.name}}.text());
   return cases;
 }
 
@@ -110,9 +122,9 @@ void measure(BenchRun& run) {
   ViewMeasurer measurer(run);
   run.measureCases(tan05Spec().name, viewCases(run.options()), tan05ViewMetrics(),
                    [&](const std::string& name) { return measurer.view(name); });
-  if (!run.options().views.empty()) return;
   run.measureCases(tan05Spec().name, distanceCases(run.options()), tan05DistanceMetrics(),
                    [&](const std::string& name) { return measurer.distance(name); });
+  if (!run.options().views.empty()) return;
   const std::vector<std::string> scenes = selectNames(tan05Scenes(), run.options().scenes);
   if (std::ranges::find(scenes, kSummaryScene) == scenes.end()) return;
   run.measureCases(tan05Spec().name, tan05KnobCases(), tan05KnobMetrics(),
@@ -140,7 +152,7 @@ std::string text(const BenchRun& run) {
 }  // namespace
 
 BenchTable tan05Bench() {
-  return {tan05Spec(), tan05Scenes(), tan05Views(), measure, text};
+  return {tan05Spec(), tan05Scenes(), allViews(), measure, text};
 }
 
 }  // namespace glintmark

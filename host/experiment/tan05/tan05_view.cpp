@@ -165,6 +165,7 @@ const std::vector<Tan05Method>& tan05Methods() {
       {"toksvig", NormalMethod::kToksvig},
       {"vmf", NormalMethod::kVmf},
       {"lean", NormalMethod::kLean},
+      {"leadr", NormalMethod::kLeadr},
       {"fournier", NormalMethod::kFournier},
       {.name = "peaks_4", .method = NormalMethod::kFournier, .peaks = 4},
       {"mip", NormalMethod::kMip},

@@ -118,6 +118,7 @@ NormalTexture makeTexture(Device& device, const NormalMap& map, NormalMethod met
       // One lobe under area lights errs less by means of the texels alone.
       return uploadTexture(device, meanNormals(map, !for_area_lights));
     case NormalMethod::kLean:
+    case NormalMethod::kLeadr:
       return uploadTexture(device, leanMoments(map));
     case NormalMethod::kFournier:
       return uploadTexture(device, fournierPeaks(map, lobes));
@@ -127,7 +128,7 @@ NormalTexture makeTexture(Device& device, const NormalMap& map, NormalMethod met
     case NormalMethod::kAnisotropic:
       return uploadLobes(device, map, method, lobes, order, iterations);
   }
-  throw Error("the normal method is unknown; it must be 0 (mip) to 8 (anisotropic)");
+  throw Error("the normal method is unknown; it must be 0 (mip) to 9 (leadr)");
 }
 
 }  // namespace
@@ -149,6 +150,7 @@ const NormalTexture& NormalTextures::get(const std::shared_ptr<const NormalMap>&
   // Methods that read the same texture share it.
   NormalMethod method = config.normal_method;
   if (method == NormalMethod::kMip || method == NormalMethod::kVmf) method = NormalMethod::kToksvig;
+  if (method == NormalMethod::kLeadr) method = NormalMethod::kLean;
   const bool mixture = readsMixture(method);
   const bool gmm = method == NormalMethod::kGmm;
   const bool for_area_lights =
