@@ -133,6 +133,19 @@ TEST(AccuracyKnobs, EdgeIntegralsAgree) {
   EXPECT_LT(relativeDifference(radianceAt(areaLightScene(), options), fit), 1e-2);
 }
 
+TEST(AccuracyKnobs, RoundLobesAreForAnisotropicMaterialsOnly) {
+  ShadingOptions options = fewLanes(), round = options;
+  round.round_lobes = true;
+  Scene scene = areaLightScene();
+  EXPECT_EQ(radianceAt(scene, round).pixels, radianceAt(scene, options).pixels);
+  scene.materials[0].params.surface.alpha_g = {0.5f, 0.05f};
+  const Image stretched = radianceAt(scene, options);
+  EXPECT_GT(relativeDifference(radianceAt(scene, round), stretched), 0.1);
+  // Of the same surface with its axes named the other way round nothing is the same.
+  scene.materials[0].params.surface.alpha_g = {0.05f, 0.5f};
+  EXPECT_GT(relativeDifference(radianceAt(scene, options), stretched), 0.1);
+}
+
 TEST(AccuracyKnobs, TablesOfCosinesInPlaceOfTheShippedOne) {
   ShadingOptions options = fewLanes();
   const Image shipped = radianceAt(areaLightScene(), options);

@@ -60,7 +60,7 @@ AccuracyKind ltcAccuracy() {
           {"area_cloth/near", "area_cloth/middle", "area_cloth/far", "area_knot/near",
            "area_knot/middle", "area_knot/far", "area_glass/near", "area_glass/middle",
            "area_glass/far", "area_shapes/near", "area_shapes/middle", "area_shapes/far",
-           "area_plane/front"},
+           "area_plane/front", "area_brushed/front", "area_brushed/grazing"},
           {"area_cloth/near", "area_cloth/middle", "area_cloth/far", "area_knot/middle",
            "area_glass/middle"},
           [](BenchRun& run, const std::vector<std::string>& scenes) {
