@@ -178,6 +178,7 @@ Finding metalWay(const CheckContext& context, const Rival& rival) {
         frame.pixels[0].frame = flatFrame();
         const double r = std::sqrt(1 - z * z), light_r = std::sqrt(1 - light_z * light_z);
         frame.ray_origin = {-r, 0, -z};
+        frame.ray_dx = frame.ray_dy = glm::dvec3(0);
         const glm::dvec3 view(r, 0, z),
             light(-light_r * std::cos(1.0), light_r * std::sin(1.0), light_z);
         frame.lights = {coneLight(light)};
