@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <numeric>
+#include <span>
 
 #include "host/core/error.h"
 #include "host/core/stopwatch.h"
@@ -318,6 +320,24 @@ class DeviceMixtureFit {
   int steps_done_ = 0;
 };
 
+// Whatever the normals are, lobes share all of them out. Compilers that lose some of a kernel's
+// values are seen here: rusticl's of Mesa 25 does.
+void requireWholeTexels(const MipTexels& moments, const std::string& device) {
+  constexpr float kSlack = 1e-3f;
+  for (std::size_t t = 0; t < moments.texelCount(); ++t) {
+    const auto vectors = static_cast<std::size_t>(moments.vectors);
+    const std::span<const float4> lobes(&moments.texels[t * vectors], vectors);
+    const float whole = std::accumulate(lobes.begin(), lobes.end(), 0.0f,
+                                        [](float sum, const float4& lobe) { return sum + lobe.x; });
+    if (std::abs(whole - 1) <= kSlack) continue;
+    throw Error(
+        fmt::format("'{}' fits mixtures wrongly: weights of a texel's lobes add up to {:.3g}, "
+                    "not to 1; choose another --device or --on host",
+                    device, whole),
+        kExitCheckFailed);
+  }
+}
+
 }  // namespace
 
 NormalMixtures fitMixturesOnDevice(Device& device, ProgramCache& cache, int lanes,
@@ -331,7 +351,9 @@ NormalMixtures fitMixturesOnDevice(Device& device, ProgramCache& cache, int lane
                     " the host",
                     mixtureOrderName(options.order)));
   }
-  return DeviceMixtureFit(device, cache, lanes, map, options, progress).run();
+  NormalMixtures fitted = DeviceMixtureFit(device, cache, lanes, map, options, progress).run();
+  requireWholeTexels(fitted.moments, device.info().name);
+  return fitted;
 }
 
 }  // namespace glintmark

@@ -11,7 +11,7 @@ namespace glintmark {
 /// neighbours and limits. Each texel stops on its own where the host's stop in blocks; tighter
 /// tolerances bring the two closer. Same bits for any number of lanes. `options.threads` means
 /// nothing here. Throws Error for options out of range, a bad map, an order other than kColours,
-/// and a chain of 2^31 numbers or more.
+/// and a chain of 2^31 numbers or more; kExitCheckFailed where the device's answer cannot be right.
 NormalMixtures fitMixturesOnDevice(Device& device, ProgramCache& cache, int lanes,
                                    const NormalMap& map, const MixtureOptions& options = {},
                                    const std::function<void(double)>& progress = {});

@@ -13,6 +13,7 @@
 #include <fstream>
 #include <iterator>
 #include <sstream>
+#include <stdexcept>
 
 #include "host/core/atomic_file.h"
 
@@ -145,6 +146,19 @@ bool canShareRanks() {
 ProcessResult runByRanks(int ranks, const std::vector<std::string>& arguments,
                          const std::vector<std::string>& environment) {
   return Process::byRanks(ranks, arguments, environment).wait();
+}
+
+std::filesystem::path changedKernels(const TempFolder& folder, const std::string& file,
+                                     const std::string& from, const std::string& to) {
+  std::filesystem::path kernels = folder / "kernels";
+  std::filesystem::copy(GLINTMARK_SOURCE_DIR "/kernels", kernels,
+                        std::filesystem::copy_options::recursive);
+  std::string text = readFile(kernels / file);
+  const std::size_t at = text.find(from);
+  if (at == std::string::npos) throw std::runtime_error(file + " has no " + from);
+  text.replace(at, from.size(), to);
+  writeFile(kernels / file, text);
+  return kernels;
 }
 
 std::size_t countOf(const std::string& text, const std::string& part) {

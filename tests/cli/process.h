@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,10 @@ bool canShareRanks();
 /// Starts glintmark by so many ranks and waits for all.
 ProcessResult runByRanks(int ranks, const std::vector<std::string>& arguments,
                          const std::vector<std::string>& environment = {});
+
+/// A copy of the kernels in which `from`, in `file`, became `to`.
+std::filesystem::path changedKernels(const TempFolder& folder, const std::string& file,
+                                     const std::string& from, const std::string& to);
 
 /// How often `part` stands in a text.
 std::size_t countOf(const std::string& text, const std::string& part);

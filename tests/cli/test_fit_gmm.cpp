@@ -185,5 +185,19 @@ TEST_F(FitGmm, WritesMixturesThatItReadsAgainAndPictures) {
   expectRefusal({"disk", "--size", "32", "--check", file}, {"not a file of mixtures"});
 }
 
+// As by a compiler that loses some of what a kernel computes.
+TEST_F(FitGmm, MixturesThatLoseNormalsAreRefused) {
+  const auto kernels = changedKernels(folder_, "mixture/mixture_texels.clh",
+                                      "s->count[i] * inverse", "0.5f * s->count[i] * inverse");
+  const ProcessResult result =
+      runGlintmark({"fit", "gmm", "--quiet", "disk", "--size", "16", "--on", "device"},
+                   {"GLINTMARK_KERNELS=" + kernels.string(), "GLINTMARK_CACHE_DIR=off"});
+  EXPECT_EQ(result.exit_code, 1) << result.err;
+  EXPECT_NE(result.err.find("fits mixtures wrongly: weights of a texel's lobes add up to 0.5, not "
+                            "to 1; choose another --device or --on host"),
+            std::string::npos)
+      << result.err;
+}
+
 }  // namespace
 }  // namespace glintmark

@@ -13,19 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A copy of the kernels in which `from`, in `file`, became `to`.
-fs::path changedKernels(const TempFolder& folder, const std::string& file, const std::string& from,
-                        const std::string& to) {
-  fs::path kernels = folder / "kernels";
-  fs::copy(GLINTMARK_SOURCE_DIR "/kernels", kernels, fs::copy_options::recursive);
-  std::string text = readFile(kernels / file);
-  const std::size_t at = text.find(from);
-  if (at == std::string::npos) throw std::runtime_error(file + " has no " + from);
-  text.replace(at, from.size(), to);
-  writeFile(kernels / file, text);
-  return kernels;
-}
-
 ProcessResult verify(const std::string& only, const std::vector<std::string>& more = {},
                      const std::string& kernels = "") {
   std::vector<std::string> arguments = {"verify", "--quiet", "--only", only};
