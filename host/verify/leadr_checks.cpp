@@ -16,11 +16,11 @@
 namespace glintmark {
 namespace {
 
-constexpr int kSize_px = 24;
-constexpr double kUvPerUnit = 2000;  // hundreds of maps under every pixel
-constexpr int kStrip_px = 4096;      // shared out among a few slopes; few texels lie between two
-constexpr int kSteps = 121;          // a side of the grid over a Gaussian
-constexpr double kReach = 5;         // deviations
+constexpr int kLeadrSize_px = 24;
+constexpr double kLeadrUvPerUnit = 2000;  // hundreds of maps under every pixel
+constexpr int kLeadrStrip_px = 4096;  // shared out among a few slopes; few texels lie between two
+constexpr int kSteps = 121;           // a side of the grid over a Gaussian
+constexpr double kReach = 5;          // deviations
 
 struct Slopes {
   glm::dvec2 mean{0, 0};
@@ -108,27 +108,30 @@ struct LeadrCase {
   bool specular;
 };
 const std::vector<glm::vec2> kLevel = {{0.4f, 0.1f}, {-0.4f, -0.1f}, {0.1f, 0.3f}, {-0.1f, -0.3f}};
-const std::vector<glm::vec2> kTilted = {{0.9f, 0.2f}, {0.1f, 0.4f}, {0.5f, -0.1f}, {0.3f, 0.1f}};
-const std::vector<glm::vec2> kSteep = {{1.5f, 0.3f}, {-1.2f, 0.4f}, {0.2f, -1.1f}, {-0.4f, 0.9f}};
+const std::vector<glm::vec2> kLeadrTilted = {
+    {0.9f, 0.2f}, {0.1f, 0.4f}, {0.5f, -0.1f}, {0.3f, 0.1f}};
+const std::vector<glm::vec2> kLeadrSteep = {
+    {1.5f, 0.3f}, {-1.2f, 0.4f}, {0.2f, -1.1f}, {-0.4f, 0.9f}};
 const std::vector<LeadrCase>& leadrCases() {
   static const std::vector<LeadrCase> cases = {{"leadr/level", kLevel, true},
-                                               {"leadr/tilted", kTilted, true},
-                                               {"leadr/steep", kSteep, true},
+                                               {"leadr/tilted", kLeadrTilted, true},
+                                               {"leadr/steep", kLeadrSteep, true},
                                                {"leadr/level_diffuse", kLevel, false},
-                                               {"leadr/tilted_diffuse", kTilted, false},
-                                               {"leadr/steep_diffuse", kSteep, false}};
+                                               {"leadr/tilted_diffuse", kLeadrTilted, false},
+                                               {"leadr/steep_diffuse", kLeadrSteep, false}};
   return cases;
 }
 
 Finding facetsAreSeen(const CheckContext& context, const LeadrCase& c) {
   NormalMap map;
   map.name = "slopes";
-  map.width_px = kStrip_px;
+  map.width_px = kLeadrStrip_px;
   map.height_px = 1;
-  for (std::size_t i = 0; i < kStrip_px; ++i)
-    map.normals.push_back(glm::normalize(glm::vec3(c.slopes[i * c.slopes.size() / kStrip_px], 1)));
+  for (std::size_t i = 0; i < kLeadrStrip_px; ++i)
+    map.normals.push_back(
+        glm::normalize(glm::vec3(c.slopes[i * c.slopes.size() / kLeadrStrip_px], 1)));
   Scene scene = mappedFloor(map);
-  for (auto& uv : scene.mesh.uvs) uv *= static_cast<float>(kUvPerUnit);
+  for (auto& uv : scene.mesh.uvs) uv *= static_cast<float>(kLeadrUvPerUnit);
   SurfaceMaterial& surface = scene.materials[0].params.surface;
   surface.f0 = {0.04f, 0.5f, 0.9f, 0};
   surface.albedo = {0.3f, 0.2f, 0.1f, 0};
@@ -145,7 +148,8 @@ Finding facetsAreSeen(const CheckContext& context, const LeadrCase& c) {
   wide.yy += 0.5 * base * base;
   const glm::dvec3 mean = glm::normalize(glm::dvec3(own.mean, 1));
   const auto textures = std::make_shared<NormalTextures>(context.bench.device);
-  ShadingOptions options{.width_px = kSize_px, .height_px = kSize_px, .lanes = context.lanes};
+  ShadingOptions options{
+      .width_px = kLeadrSize_px, .height_px = kLeadrSize_px, .lanes = context.lanes};
   options.normal_method = NormalMethod::kLeadr;
   Finding finding(c.specular ? kLeadrHighlight : kLeadrDiffuse);
   for (const double angle_deg : {80.0, 35.0, 15.0}) {
@@ -154,8 +158,8 @@ Finding facetsAreSeen(const CheckContext& context, const LeadrCase& c) {
     renderer.prepare();
     renderer.shade();
     const Image image = renderer.readRadiance();
-    for (int y = 0; y < kSize_px; y += 7)
-      for (int x = 0; x < kSize_px; x += 7) {
+    for (int y = 0; y < kLeadrSize_px; y += 7)
+      for (int x = 0; x < kLeadrSize_px; x += 7) {
         const glm::dvec3 view = in_floor(-glm::normalize(renderer.camera().ray(x, y)));
         const glm::dvec3 share = coat.share(std::max(0.0, glm::dot(mean, view)));
         glm::dvec3 want(0);
