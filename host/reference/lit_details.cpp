@@ -80,7 +80,7 @@ void addCell(LitDetails& made, const LongPixel& pixel, const glm::dvec2& corner,
 }
 
 // Share of the microdetails that grids have.
-double gridShare(LitDetails& made, double microdetails, double probability, double half_length) {
+double shareOfGrids(LitDetails& made, double microdetails, double probability, double half_length) {
   const double crowd = std::log2(microdetails * probability / kFrom) / kDoublings;
   const double rarity = std::max(-std::log2(probability * std::numbers::e) / kRareDoublings, 0.0);
   const double near = 2 - microdetails * std::min(rarity, 1 / kLeastDetails);
@@ -104,7 +104,7 @@ LitDetails litDetails(const PixelFootprint& footprint, const glm::dvec2& stretch
   const LongPixel pixel = longPixel(inGrid(footprint, stretch, level));
   if (glints.groove || probability > 0.5 || microdetails >= most || count > most || pixel.det == 0)
     return made;
-  made.of_grids = gridShare(made, microdetails, probability, pixel.half.x);
+  made.of_grids = shareOfGrids(made, microdetails, probability, pixel.half.x);
   made.tied = made.tied || isNear(fourths, kFineBorder);
   if (made.of_grids >= 1) return made;
 
