@@ -41,33 +41,33 @@ WIDE vfloat3 shadeOwners(Shading shading, vint owner, size_t entry) {
 // planes: see Shading. radiance: three planes (r, g, b) of the same stride. cell_counts: two
 // planes, visited cells | 2^31 where a limit cut the walk, and cells paid for. With ALL_MATERIALS
 // material, map and scatter are arrays over all materials.
-kernel void shade(global const uint* planes, constant const FrameParams* frame,
-                  constant const MaterialParams* material, constant const LightParams* lights,
+WIDE_KERNEL void shade(global const uint* planes, constant const FrameParams* frame,
+                       constant const MaterialParams* material, constant const LightParams* lights,
 #if GLINT && GLINT_TABLE
-                  global const float* glint_table,
+                       global const float* glint_table,
 #endif
 #if NORMAL_MAP
-                  constant const MipTexture* map, global const float4* map_texels,
+                       constant const MipTexture* map, global const float4* map_texels,
 #endif
 #if LTC
-                  constant const AreaLightParams* area_lights, global const float* ltc_table,
+                       constant const AreaLightParams* area_lights, global const float* ltc_table,
 #if LIGHT_TEXTURE
-                  constant const MipTexture* pictures, global const float4* picture_texels,
+                       constant const MipTexture* pictures, global const float4* picture_texels,
 #endif
 #endif
 #if SCATTERING
-                  constant const MultiscatterMaterial* scatter,
+                       constant const MultiscatterMaterial* scatter,
 #endif
 #if LIGHT_TAPS
-                  constant const LightTaps* light_taps, constant const float4* taps,
+                       constant const LightTaps* light_taps, constant const float4* taps,
 #endif
 #if ALL_MATERIALS
-                  global const uint* owners,
+                       global const uint* owners,
 #endif
-                  global float* restrict radiance
+                       global float* restrict radiance
 #if COUNT_CELLS
-                  ,
-                  global uint* restrict cell_counts
+                       ,
+                       global uint* restrict cell_counts
 #endif
 ) {
   const size_t first = get_global_id(0) * WIDTH;

@@ -182,18 +182,18 @@ WIDE void addToPlane(vfloat value, global float* sums, size_t i) {
 
 // Adds `sample_count` samples of a replicate, from number `sample_begin` on, to `sums`: three
 // planes of frame->plane_stride entries, radiance (r, g, b). Lights are sampled over their cones.
-kernel void truth(global const uint* planes, constant const FrameParams* frame,
-                  constant const MaterialParams* material, constant const LightParams* lights,
+WIDE_KERNEL void truth(global const uint* planes, constant const FrameParams* frame,
+                       constant const MaterialParams* material, constant const LightParams* lights,
 #if NORMAL_MAP
-                  constant const MipTexture* map, global const float4* map_texels,
+                       constant const MipTexture* map, global const float4* map_texels,
 #endif
 #if LTC
-                  constant const AreaLightParams* area_lights, global const float* ltc_table,
+                       constant const AreaLightParams* area_lights, global const float* ltc_table,
 #if LIGHT_TEXTURE
-                  constant const MipTexture* pictures, global const float4* picture_texels,
+                       constant const MipTexture* pictures, global const float4* picture_texels,
 #endif
 #endif
-                  global float* sums, uint replicate, uint sample_begin, uint sample_count) {
+                       global float* sums, uint replicate, uint sample_begin, uint sample_count) {
   const size_t first = get_global_id(0) * WIDTH;
   if (first >= frame->list_count) return;
   const size_t entry = frame->list_offset + first, stride = frame->plane_stride;

@@ -5,9 +5,9 @@
 // ratios: planes of r, g, b, 1 on average. The half vector has the slope (half_u, half_v)
 // everywhere, so that pixels differ in their place on the texture only. One work-item: WIDTH pixels
 // of `stride`, a multiple of WIDTH.
-kernel void methodRatios(global const uint* pixels, constant const MaterialParams* material,
-                         global float* ratios, float half_u, float half_v,
-                         uint stride GLINT_TABLE_PARAMETER) {
+WIDE_KERNEL void methodRatios(global const uint* pixels, constant const MaterialParams* material,
+                              global float* ratios, float half_u, float half_v,
+                              uint stride GLINT_TABLE_PARAMETER) {
   const size_t i = get_global_id(0) * WIDTH;
   if (i >= stride) return;
 #define WORD(plane) loadUint(pixels, (plane) * (size_t)stride + i)

@@ -241,10 +241,10 @@ WIDE void addCell(PixelSums* sums, const CellPixel* p, const Surface* surface, u
 
 // A work-item sums one pixel, `first` and following of `stride`. `colours` and `sizes` are read if
 // MARKED.
-kernel void placeDetails(global const uint* pixels, constant const MicrodetailField* field,
-                         global const uint* counts, global const float4* taps,
-                         global const float* sizes, global const float4* colours,
-                         global float* sums_out, uint stride, uint first, uint count) {
+WIDE_KERNEL void placeDetails(global const uint* pixels, constant const MicrodetailField* field,
+                              global const uint* counts, global const float4* taps,
+                              global const float* sizes, global const float4* colours,
+                              global float* sums_out, uint stride, uint first, uint count) {
   if (get_global_id(0) >= count) return;
   const uint entry = first + (uint)get_global_id(0);
   const Surface surface = {field, counts, taps, sizes, colours};

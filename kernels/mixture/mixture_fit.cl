@@ -92,8 +92,9 @@ WIDE MixtureSums expectTexels(constant const MixtureFitRun* run, global const fl
 
 // All EM steps of WIDTH texels. normal_x, normal_y: the map, MF_SLOTS readable beyond its end.
 // tally: 64 pairs (EM steps, texels that came to rest), added to.
-kernel void fitTexels(global const float* normal_x, global const float* normal_y,
-                      constant const MixtureFitRun* run, global float* state, global uint* tally) {
+WIDE_KERNEL void fitTexels(global const float* normal_x, global const float* normal_y,
+                           constant const MixtureFitRun* run, global float* state,
+                           global uint* tally) {
   const int item = (int)get_global_id(0);
   if (item >= run->rows * run->items_per_row) return;
   const TexelLanes texels = texelLanes(run, item);
@@ -118,9 +119,9 @@ kernel void fitTexels(global const float* normal_x, global const float* normal_y
 
 // One more E-step, and moments in place of lobes. likelihood: a number per texel of the level, the
 // sum over its normals of the logarithm of the density.
-kernel void finishTexels(global const float* normal_x, global const float* normal_y,
-                         constant const MixtureFitRun* run, global float* state,
-                         global float* likelihood) {
+WIDE_KERNEL void finishTexels(global const float* normal_x, global const float* normal_y,
+                              constant const MixtureFitRun* run, global float* state,
+                              global float* likelihood) {
   const int item = (int)get_global_id(0);
   if (item >= run->rows * run->items_per_row) return;
   const TexelLanes texels = texelLanes(run, item);
@@ -135,8 +136,8 @@ kernel void finishTexels(global const float* normal_x, global const float* norma
 // Where rows are long: the texels' first lobes go to `state`, their priors to `prior`, a number per
 // lobe, component and texel of the batch. status: per texel of the batch twice the EM steps it has
 // taken, plus 1 while it moves.
-kernel void startTexels(constant const MixtureFitRun* run, global float* state,
-                        global float* prior_sums, global uint* status) {
+WIDE_KERNEL void startTexels(constant const MixtureFitRun* run, global float* state,
+                             global float* prior_sums, global uint* status) {
   const int item = (int)get_global_id(0);
   if (item >= run->rows * run->items_per_row) return;
   const TexelLanes texels = texelLanes(run, item);
@@ -180,9 +181,9 @@ WIDE MixtureSums expectChunk(constant const MixtureFitRun* run, global const flo
 // partials: for each texel of the batch, chunk and sum MF_SLOTS numbers. One work-item per texel,
 // chunk and WIDTH slots. finishing: lobes that are given up take no part, the likelihood counts,
 // and texels at rest take part.
-kernel void expectRows(global const float* normal_x, global const float* normal_y,
-                       constant const MixtureFitRun* run, global const float* state,
-                       global const uint* status, uint finishing, global float* partials) {
+WIDE_KERNEL void expectRows(global const float* normal_x, global const float* normal_y,
+                            constant const MixtureFitRun* run, global const float* state,
+                            global const uint* status, uint finishing, global float* partials) {
   const int groups = MF_SLOTS / WIDTH;
   const int item = (int)get_global_id(0);
   if (item >= run->rows * run->columns * run->chunks * groups) return;
@@ -220,8 +221,8 @@ kernel void expectRows(global const float* normal_x, global const float* normal_
 
 // sums: a number per sum and texel of the batch. One work-item each; the same order of addition at
 // every lane count.
-kernel void addPartials(constant const MixtureFitRun* run, global const float* partials,
-                        global float* sums) {
+WIDE_KERNEL void addPartials(constant const MixtureFitRun* run, global const float* partials,
+                             global float* sums) {
   const int count = run->rows * run->columns;
   const int item = (int)get_global_id(0);
   if (item >= count * SUMS) return;
@@ -248,9 +249,9 @@ WIDE MixtureSums loadSums(global const float* from, int count, vint texel) {
 }
 
 // M-step of WIDTH texels.
-kernel void maximizeTexels(constant const MixtureFitRun* run, global const float* sums,
-                           global const float* prior_sums, global float* state,
-                           global uint* status) {
+WIDE_KERNEL void maximizeTexels(constant const MixtureFitRun* run, global const float* sums,
+                                global const float* prior_sums, global float* state,
+                                global uint* status) {
   const int item = (int)get_global_id(0);
   if (item >= run->rows * run->items_per_row) return;
   const TexelLanes texels = texelLanes(run, item);
@@ -274,8 +275,8 @@ kernel void maximizeTexels(constant const MixtureFitRun* run, global const float
 }
 
 // Moments in place of lobes, where rows are long.
-kernel void finishRows(constant const MixtureFitRun* run, global const float* sums,
-                       global float* state, global float* likelihood) {
+WIDE_KERNEL void finishRows(constant const MixtureFitRun* run, global const float* sums,
+                            global float* state, global float* likelihood) {
   const int item = (int)get_global_id(0);
   if (item >= run->rows * run->items_per_row) return;
   const TexelLanes texels = texelLanes(run, item);

@@ -9,9 +9,9 @@ WIDE vfloat loadFloat(global const float* p, size_t i) {
 // points: planes of `count` entries: position (3), view (3, unit, z > 0); the surface's frame is
 // the axes of the world. out: probability, what the lobe reflects, half vector (2) as
 // microdetailRatio reads it.
-kernel void probeAreaGlint(global const float* points, constant const MaterialParams* material,
-                           constant const AreaLightParams* light, global const float* table,
-                           global float* out, uint table_size, uint count) {
+WIDE_KERNEL void probeAreaGlint(global const float* points, constant const MaterialParams* material,
+                                constant const AreaLightParams* light, global const float* table,
+                                global float* out, uint table_size, uint count) {
   const size_t i = get_global_id(0) * WIDTH;
   if (i >= count) return;
 #define IN(plane) loadFloat(points, (size_t)(plane)*count + i)

@@ -15,13 +15,14 @@ WIDE vfloat3 loadVector(global const float* p, size_t i, size_t stride) {
 
 // points: fourteen planes of `count` entries: position, normal, view, alpha; of anisotropic lobes,
 // whose alpha that is along an axis, alpha across it and the axis. out: r, g, b.
-kernel void probeAreaLights(global const float* points, constant const MaterialParams* material,
-                            constant const AreaLightParams* lights, global const float* table,
+WIDE_KERNEL void probeAreaLights(global const float* points,
+                                 constant const MaterialParams* material,
+                                 constant const AreaLightParams* lights, global const float* table,
 #if LIGHT_TEXTURE
-                            constant const MipTexture* pictures,
-                            global const float4* picture_texels,
+                                 constant const MipTexture* pictures,
+                                 global const float4* picture_texels,
 #endif
-                            global float* out, uint light_count, uint table_size, uint count) {
+                                 global float* out, uint light_count, uint table_size, uint count) {
   if (FIRST >= count) return;
   LitPoint point;
   point.position = loadVector(points, FIRST, count);
@@ -41,8 +42,8 @@ kernel void probeAreaLights(global const float* points, constant const MaterialP
 }
 
 // Overall roughness of alpha_mi `micro` and the mean lengths `in`.
-kernel void probeFootprintAlpha(global const float* in, global float* out, uint count,
-                                float micro) {
+WIDE_KERNEL void probeFootprintAlpha(global const float* in, global float* out, uint count,
+                                     float micro) {
   if (FIRST >= count) return;
   storeFloat(footprintAlpha(micro, loadFloat(in, FIRST)), out, FIRST);
 }

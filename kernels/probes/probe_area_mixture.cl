@@ -8,9 +8,11 @@ WIDE vfloat loadFloat(global const float* p, size_t i) {
 // points: planes of `count` entries: position (3) and view (3), both on a mesh whose frame is that
 // of the world, then four moments of each lobe. table: that of the base lobe and that of normals.
 // out: r, g, b.
-kernel void probeAreaMixture(global const float* points, constant const MaterialParams* material,
-                             constant const AreaLightParams* lights, global const float* table,
-                             global float* out, uint light_count, uint table_size, uint count) {
+WIDE_KERNEL void probeAreaMixture(global const float* points,
+                                  constant const MaterialParams* material,
+                                  constant const AreaLightParams* lights, global const float* table,
+                                  global float* out, uint light_count, uint table_size,
+                                  uint count) {
   const size_t i = get_global_id(0) * WIDTH;
   if (i >= count) return;
 #define IN(plane) loadFloat(points, (size_t)(plane)*count + i)

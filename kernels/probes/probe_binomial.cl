@@ -7,8 +7,8 @@ WIDE vfloat loadFloat(global const float* p, size_t i) {
   return bitsToFloat(loadUint((global const uint*)p, i));
 }
 
-kernel void probeBinomial(global const uint* bits, global const float* n, global const float* p,
-                          global float* out, uint count) {
+WIDE_KERNEL void probeBinomial(global const uint* bits, global const float* n,
+                               global const float* p, global float* out, uint count) {
   if (FIRST >= count) return;
   const vfloat k = drawBinomial(loadUint(bits, FIRST), loadFloat(n, FIRST),
                                 makeBinomialOdds(loadFloat(p, FIRST)));

@@ -7,8 +7,9 @@ WIDE vfloat loadFloat(global const float* p, size_t i) {
 
 // in: planes of `count` entries: light (3), view (3), both local frame and unit, view.z > 0.
 // out: specular, schlick, cosine, probability, side of a half-vector cell along u.
-kernel void probeCone(global const float* in, global float* out, uint count,
-                      constant const MaterialParams* material, constant const LightParams* light) {
+WIDE_KERNEL void probeCone(global const float* in, global float* out, uint count,
+                           constant const MaterialParams* material,
+                           constant const LightParams* light) {
   const size_t i = get_global_id(0) * WIDTH;
   if (i >= count) return;
 #define IN(plane) loadFloat(in, (size_t)(plane)*count + i)

@@ -7,7 +7,8 @@ WIDE vfloat loadFloat(global const float* p, size_t i) {
 
 // in: planes of `count` entries: moments of a lobe (weight, x, y, xx, xy, yy), light (3), view (3),
 // all mesh tangent space. out: specular, cosine.
-kernel void probeCovariance(global const float* in, global float* out, uint count, float alpha) {
+WIDE_KERNEL void probeCovariance(global const float* in, global float* out, uint count,
+                                 float alpha) {
   const size_t i = get_global_id(0) * WIDTH;
   if (i >= count) return;
 #define IN(plane) loadFloat(in, (size_t)(plane)*count + i)

@@ -10,7 +10,7 @@ WIDE vfloat loadFloat(global const float* p, size_t i) {
   return bitsToFloat(loadUint((global const uint*)p, i));
 }
 
-kernel void probeMath(global const float* in, global float* out, uint count, int function) {
+WIDE_KERNEL void probeMath(global const float* in, global float* out, uint count, int function) {
   if (FIRST >= count) return;
   const vfloat x = loadFloat(in, FIRST);
   const vfloat y = function == 0   ? wideExp2(x)
@@ -24,8 +24,9 @@ kernel void probeMath(global const float* in, global float* out, uint count, int
 }
 
 // out: coherent index, cell seed, pair seed for the half-vector cell (ju, jv).
-kernel void probeHash(global const uint* cell_u, global const uint* cell_v, global const uint* ju,
-                      global const uint* jv, global uint* out, uint count) {
+WIDE_KERNEL void probeHash(global const uint* cell_u, global const uint* cell_v,
+                           global const uint* ju, global const uint* jv, global uint* out,
+                           uint count) {
   if (FIRST >= count) return;
   const vint u = coherentIndex(bitsToInt(loadUint(cell_u, FIRST)));
   const vint v = coherentIndex(bitsToInt(loadUint(cell_v, FIRST)));
@@ -38,7 +39,7 @@ kernel void probeHash(global const uint* cell_u, global const uint* cell_v, glob
 }
 
 // out: U(bits) and the byte Gaussian of bits.
-kernel void probeRandom(global const uint* bits, global float* out, uint count) {
+WIDE_KERNEL void probeRandom(global const uint* bits, global float* out, uint count) {
   if (FIRST >= count) return;
   const vuint h = loadUint(bits, FIRST);
   storeFloat(uniformFromBits(h), out, FIRST);
@@ -47,8 +48,8 @@ kernel void probeRandom(global const uint* bits, global float* out, uint count) 
 
 // in: planes of `count` words: u whole, u fraction, v whole, v fraction, du/dx, dv/dx, du/dy,
 // dv/dy. out: finer level, weight of the coarser grid, extents of the stretched box.
-kernel void probeFootprint(global const uint* in, global float* out, uint count,
-                           constant const GlintMaterial* glints) {
+WIDE_KERNEL void probeFootprint(global const uint* in, global float* out, uint count,
+                                constant const GlintMaterial* glints) {
   if (FIRST >= count) return;
 #define WORD(plane) loadUint(in, (plane) * (size_t)count + FIRST)
   const FixedUv u = {bitsToInt(WORD(0)), WORD(1)}, v = {bitsToInt(WORD(2)), WORD(3)};

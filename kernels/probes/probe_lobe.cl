@@ -7,7 +7,7 @@ WIDE vfloat loadFloat(global const float* p, size_t i) {
 
 // in: planes of `count` entries: moments (4), light (3), view (3), all mesh tangent space.
 // out: lobe weight, mean x, mean y, variance, specular, cosine.
-kernel void probeLobe(global const float* in, global float* out, uint count, float alpha) {
+WIDE_KERNEL void probeLobe(global const float* in, global float* out, uint count, float alpha) {
   const size_t i = get_global_id(0) * WIDTH;
   if (i >= count) return;
 #define IN(plane) loadFloat(in, (size_t)(plane)*count + i)
@@ -29,8 +29,8 @@ kernel void probeLobe(global const float* in, global float* out, uint count, flo
 // in: planes of `count` entries, four moments of each lobe. out: how many lobes some lane has, then
 // weight, mean x, mean y, variance of each lobe, 0 for those that are not in use. true_spread: of
 // the probes that read the moments.
-kernel void probeMixture(global const float* in, global float* out, uint count, float alpha,
-                         float true_spread) {
+WIDE_KERNEL void probeMixture(global const float* in, global float* out, uint count, float alpha,
+                              float true_spread) {
   const size_t i = get_global_id(0) * WIDTH;
   if (i >= count) return;
   vfloat4 moments[LOBES];

@@ -9,8 +9,8 @@ WIDE vfloat loadFloat(global const float* p, size_t i) {
 
 // in: planes of `count` entries: light (3), view (3), mean normal (3), all mesh tangent space and
 // unit, view.z > 0. out: specular, schlick, cosine. variance: of the normals, per axis.
-kernel void probeMappedCone(global const float* in, global float* out, uint count,
-                            constant const LightParams* light, float alpha, float variance) {
+WIDE_KERNEL void probeMappedCone(global const float* in, global float* out, uint count,
+                                 constant const LightParams* light, float alpha, float variance) {
   const size_t i = get_global_id(0) * WIDTH;
   if (i >= count) return;
 #define IN(plane) loadFloat(in, (size_t)(plane)*count + i)

@@ -3,8 +3,8 @@
 
 // out: six arrays of frame->plane_stride numbers, unit vectors to the eye and to the light (given
 // in world axes) in the local frame.
-kernel void probePixels(global const uint* planes, constant const FrameParams* frame, float light_x,
-                        float light_y, float light_z, global float* out) {
+WIDE_KERNEL void probePixels(global const uint* planes, constant const FrameParams* frame,
+                             float light_x, float light_y, float light_z, global float* out) {
   const size_t stride = frame->plane_stride, entry = get_global_id(0) * WIDTH;
   if (entry >= stride) return;
   const ShadingFrame basis = unpackFrame(loadUint(planes, PLANE_FRAME0 * stride + entry),

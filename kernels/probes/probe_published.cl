@@ -7,13 +7,13 @@ WIDE vfloat loadFloat(global const float* p, size_t i) {
   return bitsToFloat(loadUint((global const uint*)p, i));
 }
 
-kernel void probeSineHash(global const float* n, global float* out, uint count) {
+WIDE_KERNEL void probeSineHash(global const float* n, global float* out, uint count) {
   if (FIRST >= count) return;
   storeFloat(sineHash(loadFloat(n, FIRST)), out, FIRST);
 }
 
-kernel void probePublishedBinomial(global const float* u, global const float* n,
-                                   global const float* p, global float* out, uint count) {
+WIDE_KERNEL void probePublishedBinomial(global const float* u, global const float* n,
+                                        global const float* p, global float* out, uint count) {
   if (FIRST >= count) return;
   storeFloat(publishedBinomial(loadFloat(u, FIRST), loadFloat(n, FIRST), loadFloat(p, FIRST)), out,
              FIRST);

@@ -11,8 +11,8 @@ WIDE vfloat loadFloat(global const float* p, size_t i) {
 
 // in: planes of `count` entries: light (3), view (3), tangent space. out: single and multiple
 // scattering without their colours, times the cosine of incidence.
-kernel void probeScatter(global const float* in, constant const MultiscatterMaterial* scatter,
-                         global float* out, uint count) {
+WIDE_KERNEL void probeScatter(global const float* in, constant const MultiscatterMaterial* scatter,
+                              global float* out, uint count) {
   const size_t i = get_global_id(0) * WIDTH;
   if (i >= count) return;
 #define IN(plane) loadFloat(in, (size_t)(plane)*count + i)

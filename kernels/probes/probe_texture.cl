@@ -9,9 +9,9 @@ WIDE vfloat loadFloat(global const uint* p, size_t i) { return bitsToFloat(loadU
 
 // footprints: planes u, v [2^-32], dudx, dvdx, dudy, dvdy [float bits] of `count` entries each.
 // out: per component of the texel a plane; then probes of a row, rows, level and true spread.
-kernel void probeTexture(constant const MipTexture* texture, global const float4* texels,
-                         global const uint* footprints, global float* out, uint count,
-                         int most_probes, int most_rows, float least_texels, int border) {
+WIDE_KERNEL void probeTexture(constant const MipTexture* texture, global const float4* texels,
+                              global const uint* footprints, global float* out, uint count,
+                              int most_probes, int most_rows, float least_texels, int border) {
   const size_t i = get_global_id(0) * WIDTH;
   if (i >= count) return;
   const ProbeGrid grid =

@@ -7,7 +7,7 @@ WIDE vfloat loadFloat(global const float* p, size_t i) {
 
 // in: planes of `count` entries: turns, 0 to 1, then x and y. out: sine and cosine of the turns,
 // the angle of (x, y) in turns.
-kernel void probeTrig(global const float* in, global float* out, uint count) {
+WIDE_KERNEL void probeTrig(global const float* in, global float* out, uint count) {
   const size_t i = get_global_id(0) * WIDTH;
   if (i >= count) return;
   const SineCosine turned = sineCosineTurns(loadFloat(in, i));

@@ -5,8 +5,9 @@
 // to 5) in the tangent frame; u (6: whole part, 7: the rest times 2^32) and v (8, 9); du/dx, dv/dx,
 // du/dy, dv/dy per pixel (10 to 13). irradiance: rgb on a surface that faces the light. radiance:
 // arrays of r, g and b. glint_table: of the methods that have one. One work-item shades WIDTH hits.
-kernel void shadeHits(global const uint* hits, constant const MaterialParams* material,
-                      float4 irradiance, global float* radiance, uint count GLINT_TABLE_PARAMETER) {
+WIDE_KERNEL void shadeHits(global const uint* hits, constant const MaterialParams* material,
+                           float4 irradiance, global float* radiance,
+                           uint count GLINT_TABLE_PARAMETER) {
   const size_t stride = count, i = get_global_id(0) * WIDTH;
   if (i >= stride) return;
 #define WORD(array) loadUint(hits, (array)*stride + i)

@@ -307,9 +307,9 @@ WIDE void flyTogether(Flight* a, Flight* b, global const uint* heights, global c
 // One work-item flies WIDTH * GROUPS * run->rays_per_lane rays, as far as there are `ray_count` in
 // all. `seed`: of this launch. outcomes: for every ray the histogram word that it adds one to, then
 // WIDTH unused ones.
-kernel void traceRays(global const uint* heights, global const uint* cones,
-                      constant const HeightfieldRun* run, uint seed, uint ray_count,
-                      global uint* outcomes) {
+WIDE_KERNEL void traceRays(global const uint* heights, global const uint* cones,
+                           constant const HeightfieldRun* run, uint seed, uint ray_count,
+                           global uint* outcomes) {
   const uint item_rays = (uint)(WIDTH * GROUPS) * run->rays_per_lane;
   Flight flights[GROUPS];
   int busy = 0;

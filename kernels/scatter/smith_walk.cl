@@ -87,8 +87,8 @@ WIDE void meetFacet(Walk* walk, constant const HeightfieldRun* run, vmask which,
 
 // One work-item walks WIDTH * run->rays_per_lane rays, as far as there are `ray_count` in all.
 // `seed`: of this launch. outcomes: as of heightfield.cl.
-kernel void walkRays(constant const HeightfieldRun* run, uint seed, uint ray_count,
-                     global uint* outcomes) {
+WIDE_KERNEL void walkRays(constant const HeightfieldRun* run, uint seed, uint ray_count,
+                          global uint* outcomes) {
   const uint item_rays = (uint)WIDTH * run->rays_per_lane;
   for (uint k = 0; k < run->rays_per_lane; ++k) {
     const vuint id = laneNumbers() + ((uint)get_global_id(0) * item_rays + k * (uint)WIDTH);
