@@ -88,7 +88,9 @@ void readScene(std::string_view bytes) {
 
 void readMesh(std::string_view bytes) {
   const std::string_view extension = takeLine(bytes);
-  if (extension != "obj" && extension != "ply" && extension != "gltf" && extension != "glb") return;
+  if (extension != "obj" && extension != "ply" && extension != "stl" && extension != "gltf" &&
+      extension != "glb")
+    return;
   const std::filesystem::path file = scratchFile(extension);
   std::ofstream(file, std::ios::binary) << bytes;
   try {

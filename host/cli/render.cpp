@@ -280,10 +280,14 @@ void writePlanes(const Scene& scene, const Camera& camera, int threads, const st
   Rasterizer(threads).render(scene.mesh, camera, scene.cull_back_faces, PlaneMask::all(), planes);
   std::vector<std::string> materials;
   for (const Material& material : scene.materials) materials.push_back(material.name);
-  Image image = planesToImage(planes);
-  addMaterialMatte(image, materials);
   for (auto& fact : matteFacts(materials)) facts.push_back(std::move(fact));
-  writeExr(image, file, facts);
+  const PlaneRows planes_by_row(planes);
+  const auto rows = [&](int first, int count) {
+    Image image = planes_by_row.read(first, count);
+    addMaterialMatte(image, materials);
+    return image;
+  };
+  writeExr({planes.width_px, planes.height_px, rows(0, 1).channel_names, rows}, file, facts);
 }
 
 int runRender(const CommandLine& line, const RenderOptions& options) {

@@ -5,6 +5,7 @@
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 
+#include <algorithm>
 #include <string_view>
 #include <tuple>
 #include <utility>
@@ -35,6 +36,7 @@ class OpenedImage : public StoredImage {
         std::tie(spec.x, spec.y, spec.width, spec.height, spec.depth);
     std::tie(part.full_x, part.full_y, part.full_width, part.full_height) =
         std::tie(spec.full_x, spec.full_y, spec.full_width, spec.full_height);
+    if (!hasParts() && !coversData(part)) useDataAsPicture(part);
     part.orientation = orientationOf(spec);
     if (spec.format == OIIO::TypeDesc::UINT8) part.step = 1.0f / 255;
     if (spec.format == OIIO::TypeDesc::UINT16) part.step = 1.0f / 65535;
@@ -53,6 +55,17 @@ class OpenedImage : public StoredImage {
   }
 
  private:
+  // Positions on a page, which PNG and TIFF know, are no windows.
+  static bool coversData(const StoredPart& part) {
+    return part.x >= part.full_x && part.y >= part.full_y &&
+           part.x + part.width <= part.full_x + part.full_width &&
+           part.y + part.height <= part.full_y + part.full_height;
+  }
+  static void useDataAsPicture(StoredPart& part) {
+    part.full_x = part.x, part.full_y = part.y;
+    part.full_width = part.width, part.full_height = part.height;
+  }
+
   // OpenImageIO takes the two quarter turns of Radiance files for each other: "+X M +Y N" is a
   // picture that lies turned clockwise. [Ward, "Radiance File Formats"]
   int orientationOf(const OIIO::ImageSpec& spec) const {
@@ -72,6 +85,15 @@ OIIO::ImageSpec readingHints() {
   OIIO::ImageSpec hints;
   hints.attribute("oiio:UnassociatedAlpha", 1);
   return hints;
+}
+
+bool writeBands(OIIO::ImageOutput& output, const PixelBlock& image) {
+  for (int y = 0; y < image.height; y += image.band_rows) {
+    const int end = std::min(image.height, y + image.band_rows);
+    if (!output.write_scanlines(y, end, 0, OIIO::TypeDesc::FLOAT, image.band(y, end - y).data()))
+      return false;
+  }
+  return true;
 }
 
 class OpenImageIoCodec : public ImageCodec {
@@ -107,7 +129,7 @@ class OpenImageIoCodec : public ImageCodec {
 
   // In memory, for the caller to write: OpenImageIO does not report every failed write of a PNG.
   std::vector<unsigned char> encode(const PixelBlock& image, std::string& fault) const override {
-    const bool is_png = image.floats.empty();
+    const bool is_png = !image.bytes.empty();
     const std::string format = is_png ? "png" : "openexr";
     auto output = OIIO::ImageOutput::create(format);
     if (!output) {
@@ -128,9 +150,10 @@ class OpenImageIoCodec : public ImageCodec {
                                 : static_cast<const void*>(image.floats.data());
     std::vector<unsigned char> bytes;
     OIIO::Filesystem::IOVecOutput memory(bytes);
-    const bool encoded = output->set_ioproxy(&memory) &&
-                         output->open(is_png ? "memory.png" : "memory.exr", spec) &&
-                         output->write_image(type, pixels) && output->close();
+    const bool encoded =
+        output->set_ioproxy(&memory) && output->open(is_png ? "memory.png" : "memory.exr", spec) &&
+        (image.band ? writeBands(*output, image) : output->write_image(type, pixels)) &&
+        output->close();
     if (encoded) return bytes;
     fault = output->geterror();
     return {};

@@ -2,6 +2,7 @@
 // back as sentences: exceptions of the module's own libraries stay in it.
 #pragma once
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -45,7 +46,11 @@ struct PixelBlock {
   int width = 0, height = 0;
   std::vector<std::string> channel_names;
   std::span<const float> floats{};         // an EXR of floats, or
-  std::span<const unsigned char> bytes{};  // a PNG of sRGB
+  std::span<const unsigned char> bytes{};  // a PNG of sRGB, or
+  // an EXR of floats that come in bands of `band_rows`, the last one shorter; each lives until the
+  // next is asked for
+  std::function<std::span<const float>(int first_row, int rows)> band{};
+  int band_rows = 0;
   PictureFacts facts{};
 };
 

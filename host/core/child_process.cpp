@@ -1,11 +1,11 @@
 #include "host/core/child_process.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -38,8 +38,8 @@ void limitMemory(std::uint64_t bytes) {
                   *pages * static_cast<double>(sysconf(_SC_PAGESIZE)) + static_cast<double>(bytes));
 }
 
-[[noreturn]] void runChild(const std::function<void(int out)>& work, const ChildLimits& limits,
-                           pid_t parent, int out) {
+[[noreturn]] void runChild(const std::function<void(int channel)>& work, const ChildLimits& limits,
+                           pid_t parent, int channel) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(1);
   for (const int number : {SIGINT, SIGTERM, SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGXCPU})
@@ -48,7 +48,7 @@ void limitMemory(std::uint64_t bytes) {
   if (limits.cpu_s > 0) limitResource(RLIMIT_CPU, std::ceil(limits.cpu_s));
   if (limits.memory_bytes > 0) limitMemory(limits.memory_bytes);
   try {
-    work(out);
+    work(channel);
   } catch (...) {
     _exit(1);
   }
@@ -57,11 +57,11 @@ void limitMemory(std::uint64_t bytes) {
 
 }  // namespace
 
-ChildProcess::ChildProcess(const std::function<void(int out)>& work, const ChildLimits& limits)
+ChildProcess::ChildProcess(const std::function<void(int channel)>& work, const ChildLimits& limits)
     : limits_(limits) {
   int ends[2] = {-1, -1};
-  if (pipe2(ends, O_CLOEXEC) != 0)
-    throw Error(fmt::format("cannot make a pipe to a process: {}", std::strerror(errno)));
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
+    throw Error(fmt::format("cannot make a channel to a process: {}", std::strerror(errno)));
   const pid_t parent = getpid();
   pid_ = fork();
   if (pid_ == 0) {
@@ -70,14 +70,14 @@ ChildProcess::ChildProcess(const std::function<void(int out)>& work, const Child
   }
   const int fork_error = errno;
   close(ends[1]);
-  in_ = ends[0];
+  channel_ = ends[0];
   if (pid_ > 0) return;
-  close(in_);
+  close(channel_);
   throw Error(fmt::format("cannot start a process: {}", std::strerror(fork_error)));
 }
 
 ChildProcess::~ChildProcess() {
-  close(in_);
+  close(channel_);
   if (pid_ <= 0) return;
   kill(pid_, SIGKILL);
   while (waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
@@ -87,13 +87,24 @@ ChildProcess::~ChildProcess() {
 bool ChildProcess::waitForFirst() {
   began_ = true;
   if (limits_.wall_s <= 0) return true;
-  pollfd waiting = {in_, POLLIN, 0};
+  pollfd waiting = {channel_, POLLIN, 0};
   // Signals that this process handles may cut a wait short: then it begins anew.
   int ready = 0;
   do {
     ready = poll(&waiting, 1, static_cast<int>(std::min(limits_.wall_s, 1e6) * 1000));
   } while (ready < 0 && errno == EINTR);
   return ready != 0;
+}
+
+bool ChildProcess::write(const void* bytes, std::size_t count) {
+  for (std::size_t done = 0; done < count;) {
+    const ssize_t sent =
+        send(channel_, static_cast<const char*>(bytes) + done, count - done, MSG_NOSIGNAL);
+    if (sent < 0 && errno == EINTR) continue;
+    if (sent <= 0) return false;
+    done += static_cast<std::size_t>(sent);
+  }
+  return true;
 }
 
 std::size_t ChildProcess::read(void* bytes, std::size_t count) {
@@ -103,7 +114,7 @@ std::size_t ChildProcess::read(void* bytes, std::size_t count) {
   }
   std::size_t done = 0;
   while (done < count) {
-    const ssize_t got = ::read(in_, static_cast<char*>(bytes) + done, count - done);
+    const ssize_t got = ::read(channel_, static_cast<char*>(bytes) + done, count - done);
     if (got < 0 && errno == EINTR) continue;
     if (got <= 0) break;
     done += static_cast<std::size_t>(got);
@@ -112,6 +123,7 @@ std::size_t ChildProcess::read(void* bytes, std::size_t count) {
 }
 
 std::string ChildProcess::finish() {
+  shutdown(channel_, SHUT_WR);
   int status = 0;
   while (waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
   }

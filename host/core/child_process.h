@@ -17,19 +17,21 @@ struct ChildLimits {
 
 /// A forked copy of this process that does one piece of work and hands bytes back. It has the
 /// thread that called alone, dies with it, leaves no core and gets its signals as if nobody had
-/// caught them. `work` writes into the descriptor that it gets; what it throws ends the child.
+/// caught them. `work` reads and writes the descriptor that it gets; what it throws ends the child.
 class ChildProcess {
  public:
   /// Throws Error if the system gives no process.
-  ChildProcess(const std::function<void(int out)>& work, const ChildLimits& limits);
+  ChildProcess(const std::function<void(int channel)>& work, const ChildLimits& limits);
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
+  /// Hands bytes to the child; false if it has ended.
+  bool write(const void* bytes, std::size_t count);
   /// Up to `count` bytes of what the child writes; fewer only if it ended.
   std::size_t read(void* bytes, std::size_t count);
-  /// Waits for its end. Empty, or how it ended if that was not by its own will: "was ended by
-  /// signal 11 (Segmentation fault)", "was not done after 20 s".
+  /// Hands nothing more over and waits for its end. Empty, or how it ended if that was not by its
+  /// own will: "was ended by signal 11 (Segmentation fault)", "was not done after 20 s".
   std::string finish();
 
  private:
@@ -38,7 +40,7 @@ class ChildProcess {
 
   ChildLimits limits_;
   pid_t pid_ = -1;
-  int in_ = -1;
+  int channel_ = -1;
   bool began_ = false, late_ = false;
 };
 

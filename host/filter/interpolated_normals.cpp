@@ -24,10 +24,14 @@ Neighbours neighbours(int fine, int factor, int count) {
 }  // namespace
 
 NormalMap interpolatedNormals(const NormalMap& map, int factor) {
-  NormalMap fine{map.name, map.width_px * factor, map.height_px * factor, {}};
+  return interpolatedRows(map, factor, 0, map.height_px * factor);
+}
+
+NormalMap interpolatedRows(const NormalMap& map, int factor, int first, int count) {
+  NormalMap fine{map.name, map.width_px * factor, count, {}};
   fine.normals.resize(static_cast<std::size_t>(fine.width_px) * fine.height_px);
-  tbb::parallel_for(0, fine.height_px, [&](int y) {
-    const Neighbours v = neighbours(y, factor, map.height_px);
+  tbb::parallel_for(0, count, [&](int y) {
+    const Neighbours v = neighbours(first + y, factor, map.height_px);
     for (int x = 0; x < fine.width_px; ++x) {
       const Neighbours u = neighbours(x, factor, map.width_px);
       const glm::vec3 sum =

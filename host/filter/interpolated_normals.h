@@ -9,6 +9,9 @@ namespace glintmark {
 /// are replaced by (0, 0, 1).
 NormalMap interpolatedNormals(const NormalMap& map, int factor);
 
+/// `count` rows of that from row `first` on; the same numbers.
+NormalMap interpolatedRows(const NormalMap& map, int factor, int first, int count);
+
 /// Samples of the interpolated map per side of a texel that stand for the surface in filters.
 inline constexpr int kSurfaceSamples = 2;
 

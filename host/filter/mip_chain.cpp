@@ -18,36 +18,44 @@ std::vector<MipCover> covers(int coarse, int fine) {
   return all;
 }
 
-// Area-weighted means of `fine` on a grid of width x height.
 Image reduce(const Image& fine, int width, int height) {
   Image coarse(width, height, fine.channels);
-  const std::vector<MipCover> columns = covers(width, fine.width);
-  const std::vector<MipCover> rows = covers(height, fine.height);
-  const double area =
-      static_cast<double>(fine.width) / width * (static_cast<double>(fine.height) / height);
-  tbb::parallel_for(0, height, [&](int y) {
-    std::vector<double> sum(static_cast<std::size_t>(fine.channels));
-    for (int x = 0; x < width; ++x) {
-      std::ranges::fill(sum, 0.0);
-      const MipCover &column = columns[x], &row = rows[y];
-      for (std::size_t j = 0; j < row.weights.size(); ++j) {
-        for (std::size_t i = 0; i < column.weights.size(); ++i) {
-          const double weight = static_cast<double>(column.weights[i]) * row.weights[j];
-          const auto texel =
-              fine.at(column.first + static_cast<int>(i), row.first + static_cast<int>(j));
-          for (int c = 0; c < fine.channels; ++c) sum[c] += weight * texel[c];
-        }
-      }
-      for (int c = 0; c < fine.channels; ++c) {
-        coarse.at(x, y)[c] = static_cast<float>(sum[c] / area);
-      }
-    }
-  });
+  const auto stride = static_cast<std::size_t>(fine.channels);
+  reduceTexels({fine.pixels.data(), fine.width, fine.height, stride},
+               {coarse.pixels.data(), width, height, stride}, fine.channels);
   coarse.channel_names = fine.channel_names;
   return coarse;
 }
 
 }  // namespace
+
+void reduceTexels(const TexelGrid<const float>& fine, const TexelGrid<float>& coarse,
+                  int channels) {
+  const std::vector<MipCover> columns = covers(coarse.width, fine.width);
+  const std::vector<MipCover> rows = covers(coarse.height, fine.height);
+  const double area = static_cast<double>(fine.width) / coarse.width *
+                      (static_cast<double>(fine.height) / coarse.height);
+  tbb::parallel_for(0, coarse.height, [&](int y) {
+    std::vector<double> sum(static_cast<std::size_t>(channels));
+    for (int x = 0; x < coarse.width; ++x) {
+      std::ranges::fill(sum, 0.0);
+      const MipCover &column = columns[x], &row = rows[y];
+      for (std::size_t j = 0; j < row.weights.size(); ++j) {
+        for (std::size_t i = 0; i < column.weights.size(); ++i) {
+          const double weight = static_cast<double>(column.weights[i]) * row.weights[j];
+          const float* const texel =
+              fine.at(column.first + static_cast<int>(i), row.first + static_cast<int>(j));
+          for (int c = 0; c < channels; ++c) sum[c] += weight * texel[c];
+        }
+      }
+      for (int c = 0; c < channels; ++c) coarse.at(x, y)[c] = static_cast<float>(sum[c] / area);
+    }
+  });
+}
+
+bool levelsNest(int top, int below, int level) {
+  return (below == 1 || below == 2 * level) && top % below == 0;
+}
 
 int mipLevelCount(int width_px, int height_px) {
   return std::bit_width(static_cast<unsigned>(std::max(width_px, height_px)));
@@ -71,16 +79,14 @@ MipChain makeMipChain(Image finest) {
     throw Error("a mip chain needs an image of at least one texel");
   }
   const int count = mipLevelCount(finest.width, finest.height);
-  const auto halves = [](int coarse, int fine) { return fine == 1 || fine == 2 * coarse; };
   MipChain chain;
   chain.levels.push_back(std::move(finest));
   for (int level = 1; level < count; ++level) {
     const Image& top = chain.levels.front();
     const int width = std::max(1, top.width >> level), height = std::max(1, top.height >> level);
-    // From the level below where its texels nest, which is the same mean at a fraction of the work.
     const Image& below = chain.levels.back();
-    const bool nests = halves(width, below.width) && halves(height, below.height) &&
-                       top.width % below.width == 0 && top.height % below.height == 0;
+    const bool nests =
+        levelsNest(top.width, below.width, width) && levelsNest(top.height, below.height, height);
     Image next = reduce(nests ? below : top, width, height);
     chain.levels.push_back(std::move(next));
   }

@@ -1,5 +1,6 @@
 // Mip chains of any size and channel count.
 #pragma once
+#include <cstddef>
 #include <vector>
 
 #include "host/core/image.h"
@@ -15,6 +16,29 @@ struct MipChain {
 
 /// Number of levels of a w x h map, both at least 1.
 int mipLevelCount(int width_px, int height_px);
+
+/// Texels in memory, row by row, `stride` floats from one to the next.
+template <typename Float>
+struct TexelGrid {
+  Float* texels;
+  int width, height;
+  std::size_t stride;
+
+  Float* at(int x, int y) const {
+    return texels + (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                     static_cast<std::size_t>(x)) *
+                        stride;
+  }
+};
+
+/// Area-weighted means of the first `channels` floats of `fine`, of at least as many texels each
+/// way, in double precision.
+void reduceTexels(const TexelGrid<const float>& fine, const TexelGrid<float>& coarse, int channels);
+
+/// Whether a level's texels consist of whole texels of the level `below` it, and those of whole
+/// texels of the `top` one, along one axis: then its means may come from the level below, at a
+/// fraction of the work.
+bool levelsNest(int top, int below, int level);
 
 /// Builds the chain in double precision per texel. Throws Error for an empty image.
 MipChain makeMipChain(Image finest);

@@ -52,24 +52,35 @@ MipTexels makeMipTexels(int width_px, int height_px, int vectors) {
   return result;
 }
 
+void fillCoarserLevels(MipTexels& chain, int channels) {
+  const std::size_t stride = std::size_t{4} * static_cast<std::size_t>(chain.vectors);
+  const auto floats = [&](int level) { return &chain.at(level, 0, 0)->x; };
+  const int width = chain.levelWidth(0), height = chain.levelHeight(0);
+  for (int level = 1; level < static_cast<int>(chain.layout.level_count); ++level) {
+    const TexelGrid<float> coarse{floats(level), chain.levelWidth(level), chain.levelHeight(level),
+                                  stride};
+    const bool nests = levelsNest(width, chain.levelWidth(level - 1), coarse.width) &&
+                       levelsNest(height, chain.levelHeight(level - 1), coarse.height);
+    const int from = nests ? level - 1 : 0;
+    reduceTexels({floats(from), chain.levelWidth(from), chain.levelHeight(from), stride}, coarse,
+                 channels);
+  }
+}
+
+void fillLevel(MipTexels& chain, int level, const Image& image) {
+  const int channels = std::min(image.channels, 4 * chain.vectors);
+  float* to = &chain.at(level, 0, 0)->x;
+  for (std::size_t i = 0; i < image.pixels.size(); i += static_cast<std::size_t>(image.channels)) {
+    std::copy_n(image.pixels.data() + i, channels, to);
+    to += std::ptrdiff_t{4} * chain.vectors;
+  }
+}
+
 MipTexels packMipChain(const MipChain& chain, int vectors) {
   const Image& finest = chain.levels.front();
   MipTexels result = makeMipTexels(finest.width, finest.height, vectors);
-  const int channels = std::min(finest.channels, 4 * vectors);
-  for (std::size_t level = 0; level < chain.levels.size(); ++level) {
-    const Image& image = chain.levels[level];
-    float4* to = result.at(static_cast<int>(level), 0, 0);
-    const std::size_t count = static_cast<std::size_t>(image.width) * image.height;
-    for (std::size_t i = 0; i < count; ++i) {
-      for (int c = 0; c < channels; ++c) {
-        float4& v = to[i * vectors + c / 4];
-        (c % 4 == 0   ? v.x
-         : c % 4 == 1 ? v.y
-         : c % 4 == 2 ? v.z
-                      : v.w) = image.pixels[i * image.channels + c];
-      }
-    }
-  }
+  for (std::size_t level = 0; level < chain.levels.size(); ++level)
+    fillLevel(result, static_cast<int>(level), chain.levels[level]);
   return result;
 }
 

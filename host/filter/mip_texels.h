@@ -28,6 +28,13 @@ MipTexture makeMipTexture(int width_px, int height_px);
 /// Zeros in the layout of width x height texels of `vectors` float4.
 MipTexels makeMipTexels(int width_px, int height_px, int vectors);
 
+/// Makes every level after the finest from that, as makeMipChain() does, of the first `channels`
+/// floats of a texel.
+void fillCoarserLevels(MipTexels& chain, int channels);
+
+/// Copies an image of a level's size into it; channels beyond those stay.
+void fillLevel(MipTexels& chain, int level, const Image& image);
+
 /// A mip chain of up to 4 * `vectors` channels, missing ones 0.
 MipTexels packMipChain(const MipChain& chain, int vectors);
 

@@ -3,20 +3,43 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 
 #include "host/core/free_memory.h"
 #include "host/filter/interpolated_normals.h"
+#include "host/filter/mip_chain.h"
 
 namespace glintmark {
 namespace {
 
 template <class Channels>
-MipChain momentChain(const NormalMap& map, int channels, const Channels& write) {
-  Image finest(map.width_px, map.height_px, channels);
-  for (std::size_t i = 0; i < map.normals.size(); ++i) {
-    write(map.normals[i], finest.pixels.data() + i * channels);
+Image moments(const NormalMap& map, int channels, const Channels& write) {
+  Image image(map.width_px, map.height_px, channels);
+  for (std::size_t i = 0; i < map.normals.size(); ++i)
+    write(map.normals[i], image.pixels.data() + i * static_cast<std::size_t>(channels));
+  return image;
+}
+
+bool isPowerOfTwo(int size) {
+  return std::has_single_bit(static_cast<unsigned>(size));
+}
+
+// Means over the map's texels of what lies between them. Where sides are powers of two, the levels
+// of this are those of the interpolated map but its finest, which is held a few rows at a time.
+template <class Channels>
+Image meansOfSurface(const NormalMap& map, int channels, const Channels& write) {
+  constexpr int kRowsAtOnce = 64;
+  Image means(map.width_px, map.height_px, channels);
+  const auto stride = static_cast<std::size_t>(channels);
+  for (int y = 0; y < map.height_px; y += kRowsAtOnce) {
+    const int rows = std::min(kRowsAtOnce, map.height_px - y);
+    const Image fine =
+        moments(interpolatedRows(map, kSurfaceSamples, kSurfaceSamples * y, kSurfaceSamples * rows),
+                channels, write);
+    reduceTexels({fine.pixels.data(), fine.width, fine.height, stride},
+                 {means.at(0, y).data(), means.width, rows, stride}, channels);
   }
-  return makeMipChain(std::move(finest));
+  return means;
 }
 
 // The finest level is that of the map's texels, coarser ones are means of what lies between them
@@ -25,18 +48,27 @@ template <class Channels>
 MipTexels mipMoments(const NormalMap& map, bool between_texels, int channels, int vectors,
                      const Channels& write) {
   checkNormalMap(map);
-  // Both chains, the image that the finer one comes from, and the packed texels.
   const bool finer = between_texels && canInterpolate(map);
-  const std::size_t texels = map.normals.size() * (finer ? kSurfaceSamples * kSurfaceSamples : 1);
-  requireMemory(texels * sizeof(float) * (channels + (finer ? 3 : vectors * 4)) * 4 / 3,
+  const bool in_rows = isPowerOfTwo(map.width_px) && isPowerOfTwo(map.height_px);
+  // The packed texels, and of the surface its means and what they are made of.
+  const std::size_t fine_floats = !finer ? 0 : in_rows ? channels : 4 * (channels + 3);
+  requireMemory(map.normals.size() * sizeof(float) * (4 * vectors + fine_floats) * 4 / 3,
                 fmt::format("the mip chain of map '{}'", map.name));
-  MipChain chain = momentChain(map, channels, write);
-  if (finer) {
-    MipChain between = momentChain(interpolatedNormals(map, kSurfaceSamples), channels, write);
-    for (std::size_t level = 1; level < chain.levels.size(); ++level)
-      chain.levels[level] = std::move(between.levels[level + 1]);
+  MipTexels chain = makeMipTexels(map.width_px, map.height_px, vectors);
+  float* to = &chain.texels.data()->x;
+  for (std::size_t i = 0; i < map.normals.size(); ++i)
+    write(map.normals[i], to + i * std::size_t{4} * static_cast<std::size_t>(vectors));
+  if (!finer) {
+    fillCoarserLevels(chain, channels);
+    return chain;
   }
-  return packMipChain(chain, vectors);
+  const MipChain surface =
+      makeMipChain(in_rows ? meansOfSurface(map, channels, write)
+                           : moments(interpolatedNormals(map, kSurfaceSamples), channels, write));
+  const std::size_t skipped = in_rows ? 0 : 1;
+  for (int level = 1; level < static_cast<int>(chain.layout.level_count); ++level)
+    fillLevel(chain, level, surface.levels[static_cast<std::size_t>(level) + skipped]);
+  return chain;
 }
 
 }  // namespace

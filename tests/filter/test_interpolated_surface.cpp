@@ -109,6 +109,28 @@ TEST(InterpolatedSurface, TwoSamplesASideStandForIt) {
   EXPECT_LT(of_surface, 0.3 * of_texels);
 }
 
+// Maps whose sides are powers of two are worked out a few rows at a time.
+TEST(InterpolatedSurface, RowsAtATimeMakeTheNumbersOfTheWhole) {
+  for (const auto& [width, height] : {std::pair{16, 256}, {128, 1}, {1, 4}, {12, 8}, {7, 5}}) {
+    const NormalMap map = randomMap(width, height);
+    const MipTexels means = meanNormals(map);
+    const NormalMap fine = interpolatedNormals(map, kSurfaceSamples);
+    Image image(fine.width_px, fine.height_px, 3);
+    for (std::size_t i = 0; i < fine.normals.size(); ++i)
+      for (int c = 0; c < 3; ++c)
+        image.pixels[3 * i + static_cast<std::size_t>(c)] = fine.normals[i][c];
+    const MipChain whole = makeMipChain(image);
+    for (int level = 1; level < static_cast<int>(means.layout.level_count); ++level)
+      for (int y = 0; y < means.levelHeight(level); ++y)
+        for (int x = 0; x < means.levelWidth(level); ++x) {
+          const auto wanted = whole.levels[static_cast<std::size_t>(level) + 1].at(x, y);
+          const float4& got = *means.at(level, x, y);
+          ASSERT_TRUE(got.x == wanted[0] && got.y == wanted[1] && got.z == wanted[2] && got.w == 0)
+              << width << 'x' << height << " level " << level << ": " << x << ", " << y;
+        }
+  }
+}
+
 TEST(InterpolatedSurface, MapsOfMostTexelsAreFilteredAsTexels) {
   NormalMap map;
   map.width_px = kMaxNormalMapSize_px / kSurfaceSamples;

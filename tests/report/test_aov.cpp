@@ -67,6 +67,23 @@ TEST(Aov, OnlyThePlanesThereAre) {
   EXPECT_EQ(image.channel_names, (std::vector<std::string>{"material", "Z"}));
 }
 
+TEST(Aov, RowsAreThoseOfTheWhole) {
+  PixelPlanes planes;
+  fillSample(planes, PlaneMask::all());
+  planes.plane(Plane::kPixel)[0] = 0 << 16 | 1;
+  planes.plane(Plane::kPixel)[kSecond] = 1 << 16 | 0;
+  planes.plane<float>(Plane::kDepth)[kSecond] = 12.5f;
+  const Image whole = planesToImage(planes);
+  const PlaneRows rows(planes);
+  for (int y = 0; y < 2; ++y) {
+    const Image row = rows.read(y, 1);
+    EXPECT_EQ(row.channel_names, whole.channel_names);
+    ASSERT_EQ(row.height, 1);
+    for (int x = 0; x < 2; ++x)
+      EXPECT_TRUE(std::ranges::equal(row.at(x, 0), whole.at(x, y))) << x << ' ' << y;
+  }
+}
+
 TEST(Aov, PlanesWithoutPixelPositionsAreAnError) {
   PixelPlanes planes;
   fillSample(planes, {Plane::kDepth});

@@ -1,4 +1,5 @@
 #include "host/report/picture/image_io.h"
+#include "host/report/picture/picture_facts.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -166,6 +167,28 @@ TEST(ImageIo, FullDiskKeepsTheOldFile) {
   }
   EXPECT_EQ(readFile(folder / "a.json"), "old");
   EXPECT_EQ(folder.entryCount(), 1u);
+}
+
+TEST(ImageIo, BandsMakeTheFileOfTheWhole) {
+  const TempFolder folder;
+  const Image image = gradient(7, 50, 3);  // three bands of 16 rows and one of 2
+  std::vector<int> asked;
+  const ImageBands bands{.width = 7,
+                         .height = 50,
+                         .channels = {"R", "G", "B"},
+                         .band =
+                             [&](int first, int rows) {
+                               asked.push_back(rows);
+                               Image band(7, rows, 3);
+                               for (int y = 0; y < rows; ++y)
+                                 for (int x = 0; x < 7; ++x)
+                                   std::ranges::copy(image.at(x, first + y), band.at(x, y).begin());
+                               return band;
+                             },
+                         .band_bytes = 1};
+  writeExr(bands, folder / "bands.exr", {});
+  EXPECT_EQ(asked, (std::vector<int>{16, 16, 16, 2}));
+  EXPECT_EQ(readImage(folder / "bands.exr").pixels, image.pixels);
 }
 
 }  // namespace

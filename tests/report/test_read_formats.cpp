@@ -112,5 +112,50 @@ TEST_F(ImageFormats, BitmapsFromTheBottomAndTheTop) {
   }
 }
 
+// What OpenImageIO 2.4 gives other pixels for.
+TEST_F(ImageFormats, WhatWouldBeReadWronglyIsRefused) {
+  const auto complaint = [&](const std::string& name, const std::string& bytes) {
+    return messageOf<Error>([&] { read(name, bytes); });
+  };
+  std::string dds = "DDS " + littleEndian(std::uint32_t{124}) +
+                    littleEndian(std::uint32_t{0x1007}) + littleEndian(std::uint32_t{2}) +
+                    littleEndian(std::uint32_t{2});
+  dds.resize(76, '\0');
+  dds += littleEndian(std::uint32_t{32}) + littleEndian(std::uint32_t{0x20000}) +
+         littleEndian(std::uint32_t{0}) + littleEndian(std::uint32_t{8}) +
+         littleEndian(std::uint32_t{0xFF});
+  dds.resize(108, '\0');
+  dds += littleEndian(std::uint32_t{0x1000});
+  dds.resize(128, '\0');
+  EXPECT_NE(complaint("l.dds", dds + "\x10\x20\x30\x40").find("luminance"), std::string::npos);
+
+  const auto bmp = [](std::uint32_t red, std::uint32_t green, std::uint32_t blue) {
+    std::string bytes = "BM" + littleEndian(std::uint32_t{74}) + littleEndian(std::uint32_t{0}) +
+                        littleEndian(std::uint32_t{70}) + littleEndian(std::uint32_t{56}) +
+                        littleEndian(std::uint32_t{1}) + littleEndian(std::uint32_t{1}) +
+                        littleEndian(std::uint16_t{1}) + littleEndian(std::uint16_t{32}) +
+                        littleEndian(std::uint32_t{3});
+    bytes.resize(54, '\0');
+    return bytes + littleEndian(red) + littleEndian(green) + littleEndian(blue) +
+           littleEndian(std::uint32_t{0xFF000000u}) + "\x10\x20\x30\x40";
+  };
+  EXPECT_NE(complaint("m.bmp", bmp(0xFF, 0xFF00, 0xFF0000)).find("bit masks"), std::string::npos);
+  EXPECT_EQ(reds(read("n.bmp", bmp(0xFF0000, 0xFF00, 0xFF))), (std::vector<int>{0x30}));
+
+  const auto tga = [](char first) {
+    std::string bytes("\0\1\1", 3);
+    bytes += first;
+    bytes += std::string("\0\2\0\x18\0\0\0\0\1\0\1\0\x08\x20", 14);
+    return bytes + greys({70, 80}) + '\1';
+  };
+  EXPECT_NE(complaint("s.TGA", tga(1)).find("colour map"), std::string::npos);
+  EXPECT_EQ(reds(read("t.tga", tga(0))), (std::vector<int>{80}));
+}
+
+TEST_F(ImageFormats, WhatIsOfNoPictureFormatIsSaid) {
+  const std::string message = messageOf<Error>([&] { read("a.ktx2", "\xABKTX 20\xBB\r\n\x1A\n"); });
+  EXPECT_NE(message.find("a.ktx2: it is of no picture format"), std::string::npos) << message;
+}
+
 }  // namespace
 }  // namespace glintmark

@@ -84,6 +84,29 @@ void writeExr(const Image& image, const std::filesystem::path& path, const Pictu
              path);
 }
 
+void writeExr(const ImageBands& image, const std::filesystem::path& path,
+              const PictureFacts& facts) {
+  // Whole blocks of ZIP's 16 rows, several for each thread that packs them.
+  constexpr std::size_t kBlockRows = 16;
+  const std::size_t row_bytes =
+      static_cast<std::size_t>(image.width) * image.channels.size() * sizeof(float);
+  const std::size_t blocks = std::max<std::size_t>(
+      1, image.band_bytes / (std::max<std::size_t>(1, row_bytes) * kBlockRows));
+  Image band;
+  encodeFile({.width = image.width,
+              .height = image.height,
+              .channel_names = image.channels,
+              .band =
+                  [&](int first_row, int rows) {
+                    band = image.band(first_row, rows);
+                    return std::span<const float>(band.pixels);
+                  },
+              .band_rows = static_cast<int>(std::min<std::size_t>(
+                  blocks * kBlockRows, static_cast<std::size_t>(image.height))),
+              .facts = facts},
+             path);
+}
+
 void writePng(const Image& image, const std::filesystem::path& path, const PictureFacts& facts) {
   requireConsistent(image, path);
   if (image.channels == 2 || image.channels > 4) {

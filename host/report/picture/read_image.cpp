@@ -14,6 +14,7 @@
 #include "host/report/picture/image_io.h"
 #include "host/report/picture/image_layers.h"
 #include "host/report/picture/load_codec.h"
+#include "host/report/picture/misread_files.h"
 
 namespace glintmark {
 namespace {
@@ -34,9 +35,11 @@ std::string oneLine(std::string text) {
 class ImageSource {
  public:
   explicit ImageSource(const std::filesystem::path& file) : name_(file.string()) {
-    { const InputFile is_regular(file); }
+    checkHead(file);
     std::string fault;
-    file_ = imageCodec().open(name_, fault);
+    file_ = openImage(name_, {}, fault);
+    if (!file_ && fault.find("could not find a format reader") != std::string::npos)
+      fail("it is of no picture format that is read; save it as PNG, TIFF or EXR");
     requireFlat(fault);
   }
   ImageSource(std::string_view bytes, const std::string& name) : name_(name) {
@@ -44,7 +47,7 @@ class ImageSource {
                          : bytes.starts_with("\x89PNG") ? "png"
                                                         : "openexr";
     std::string fault;
-    file_ = imageCodec().open(format, bytes, fault);
+    file_ = openImage(name_, {format, bytes}, fault);
     requireFlat(fault);
   }
 
@@ -83,6 +86,14 @@ class ImageSource {
   int channelCount(int number) { return static_cast<int>(partOf(number).channel_names.size()); }
 
  private:
+  void checkHead(const std::filesystem::path& path) const {
+    InputFile file(path);
+    std::string head(kMisreadHead_bytes, '\0');
+    head.resize(file.read(head.data(), head.size()));
+    const std::string fault = misreading(head, name_);
+    if (!fault.empty()) fail(fault);
+  }
+
   void requireFlat(const std::string& fault) {
     if (!file_) fail(fault);
     const StoredPart first = partOf(0);
