@@ -77,19 +77,18 @@ std::vector<glm::vec3> lightPoints(KernelBench& bench, const AreaLightProbe& pro
   const bool textured = !pictures.layouts.empty();
   std::vector<KernelArg> args;
   args.reserve(10);
-  args.push_back(probeData(bench, pointPlanes(points, stride)));
-  args.push_back(probeData(bench, std::vector{probe.material}));
-  args.push_back(probeData(bench, prepareAreaLights(probe.lights, glm::dvec3(0))));
-  args.push_back(probeData(bench, tableValues(probe)));
+  args.emplace_back(probeData(bench, pointPlanes(points, stride)));
+  args.emplace_back(probeData(bench, std::vector{probe.material}));
+  args.emplace_back(probeData(bench, prepareAreaLights(probe.lights, glm::dvec3(0))));
+  args.emplace_back(probeData(bench, tableValues(probe)));
   if (textured) {
-    args.push_back(probeData(bench, pictures.layouts));
-    args.push_back(probeData(bench, pictures.texels));
+    args.emplace_back(probeData(bench, pictures.layouts));
+    args.emplace_back(probeData(bench, pictures.texels));
   }
-  for (const KernelArg& arg :
-       {KernelArg(out), KernelArg(static_cast<std::uint32_t>(probe.lights.size())),
-        KernelArg(static_cast<std::uint32_t>(probe.table.size)),
-        KernelArg(static_cast<std::uint32_t>(stride))})
-    args.push_back(arg);
+  args.emplace_back(out);
+  args.emplace_back(static_cast<std::uint32_t>(probe.lights.size()));
+  args.emplace_back(static_cast<std::uint32_t>(probe.table.size));
+  args.emplace_back(static_cast<std::uint32_t>(stride));
   probeKernel(bench, kProbes, "probeAreaLights",
               fmt::format("-D WIDTH={} -D LTC=1 -D LIGHT_VERTICES={} -D DIFFUSE={:d} "
                           "-D CLIPLESS={:d} -D LIGHT_TEXTURE={:d} -D ALBEDO_SCALING={:d} "
