@@ -136,7 +136,7 @@ Image lobesPicture(const std::vector<SideLobe>& lobes) {
   return lobePicture(simulated, kColumns);
 }
 
-void checkOptions(const FitDielectricOptions& options) {
+void checkFitDielectric(const FitDielectricOptions& options) {
   if (!(options.rays >= kLeastGlassRays && options.rays <= kMostGlassRays))
     throw Error(fmt::format("--rays {} is not possible; it must be {:g} to {:g}", options.rays,
                             kLeastGlassRays, kMostGlassRays));
@@ -147,7 +147,7 @@ void checkOptions(const FitDielectricOptions& options) {
 }
 
 int runFitDielectric(const CommandLine& line, const FitDielectricOptions& options) {
-  checkOptions(options);
+  checkFitDielectric(options);
   const std::filesystem::path folder = options.folder;
   const InterruptGuard guard;
   Device device = openDevice(line.common);
