@@ -21,12 +21,12 @@
 namespace glintmark {
 namespace {
 
-constexpr double kAlphas[] = {0.24, 0.43, 0.62, 0.81, 1.0};
-constexpr double kIncidences_deg[] = {0, 20, 40, 60, 80};
+constexpr double kGlassAlphas[] = {0.24, 0.43, 0.62, 0.81, 1.0};
+constexpr double kGlassIncidences_deg[] = {0, 20, 40, 60, 80};
 constexpr int kOrders = 4, kShownOrders = 3;
 constexpr double kShownAlpha = 0.43, kShownIncidence_deg = 60;
 constexpr const char* kSides[] = {"reflected", "transmitted"};
-constexpr double kLeastRays = 1000, kMostRays = 1e12;
+constexpr double kLeastGlassRays = 1000, kMostGlassRays = 1e12;
 
 struct FitDielectricOptions {
   std::string folder = "results/latest", picture;
@@ -55,8 +55,8 @@ SideLobe fitSide(const Simulation& simulation, int side, int order) {
 
 std::vector<SimulationSettings> dielectricRuns(const FitDielectricOptions& options) {
   std::vector<SimulationSettings> runs;
-  for (const double alpha : kAlphas)
-    for (const double incidence_deg : kIncidences_deg) {
+  for (const double alpha : kGlassAlphas)
+    for (const double incidence_deg : kGlassIncidences_deg) {
       SimulationSettings s;
       s.kind = SurfaceKind::kDielectric;
       s.index_n = options.index;
@@ -89,15 +89,15 @@ std::string lobesTable(const std::vector<SideLobe>& lobes, double index) {
     header.emplace_back("error");
   }
   TextTable table(header);
-  for (const double alpha : kAlphas)
+  for (const double alpha : kGlassAlphas)
     for (const int side : {0, 1}) {
       std::vector<std::string> row = {fmt::format("{:.2f}", alpha), kSides[side]};
       for (int order = 1; order <= kShownOrders; ++order) {
         double share = 0, error = 0;
         for (const SideLobe& l : lobes) {
           if (l.data.alpha != alpha || l.side != side || l.data.order != order) continue;
-          share += l.data.share / static_cast<double>(std::size(kIncidences_deg));
-          error += l.lobe.error / static_cast<double>(std::size(kIncidences_deg));
+          share += l.data.share / static_cast<double>(std::size(kGlassIncidences_deg));
+          error += l.lobe.error / static_cast<double>(std::size(kGlassIncidences_deg));
         }
         row.push_back(fmt::format("{:.4f}", share));
         row.push_back(fmt::format("{:.3f}", error));
@@ -136,10 +136,10 @@ Image lobesPicture(const std::vector<SideLobe>& lobes) {
   return lobePicture(simulated, kColumns);
 }
 
-void checkOptions(const FitDielectricOptions& options) {
-  if (!(options.rays >= kLeastRays && options.rays <= kMostRays))
+void checkFitDielectric(const FitDielectricOptions& options) {
+  if (!(options.rays >= kLeastGlassRays && options.rays <= kMostGlassRays))
     throw Error(fmt::format("--rays {} is not possible; it must be {:g} to {:g}", options.rays,
-                            kLeastRays, kMostRays));
+                            kLeastGlassRays, kMostGlassRays));
   for (const SimulationSettings& run : dielectricRuns(options)) validate(run);
   if (!allRanks().isFirst()) return;
   if (!options.picture.empty()) requireWritablePicture(options.picture);
@@ -147,7 +147,7 @@ void checkOptions(const FitDielectricOptions& options) {
 }
 
 int runFitDielectric(const CommandLine& line, const FitDielectricOptions& options) {
-  checkOptions(options);
+  checkFitDielectric(options);
   const std::filesystem::path folder = options.folder;
   const InterruptGuard guard;
   Device device = openDevice(line.common);

@@ -19,12 +19,12 @@ constexpr Conductor kConductors[] = {
     {"schlick", {1, 1, 1}, {0, 0, 0}, glm::dvec3(0.95, 0.64, 0.54)},
     {"tinted", {1, 1, 1}, {0, 0, 0}, glm::dvec3(0.9, 0.5, 0.2), 0.5}};
 
-constexpr CompensationWay kWays[] = {{"off", Compensation::kOff},
-                                     {"lobe", Compensation::kLobe},
-                                     {"simulated", Compensation::kSimulated},
-                                     {"mean", Compensation::kMean},
-                                     {"kulla_conty", Compensation::kKullaConty},
-                                     {"fdez_aguera", Compensation::kFdezAguera}};
+constexpr CompensationWay kCompensationWays[] = {{"off", Compensation::kOff},
+                                                 {"lobe", Compensation::kLobe},
+                                                 {"simulated", Compensation::kSimulated},
+                                                 {"mean", Compensation::kMean},
+                                                 {"kulla_conty", Compensation::kKullaConty},
+                                                 {"fdez_aguera", Compensation::kFdezAguera}};
 
 MetalWay metalWay(Compensation compensation) {
   switch (compensation) {
@@ -61,7 +61,7 @@ std::span<const Conductor> conductors() {
 }
 
 std::span<const CompensationWay> compensationWays() {
-  return kWays;
+  return kCompensationWays;
 }
 
 SimulationSettings metalSettings(const Conductor& metal, int channel, SurfaceModel model,
