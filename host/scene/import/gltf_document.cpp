@@ -18,13 +18,10 @@ namespace {
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
 // What a file may require although this program knows nothing of it: how surfaces look, not where
 // they are.
-constexpr std::string_view kNotGeometry[] = {"_materials_",
-                                             "_texture_",
-                                             "_lights_",
-                                             "_technique",
-                                             "_xmp",
-                                             "AMD_split_roughnessMetallic",
-                                             "KHR_animation_pointer"};
+constexpr std::string_view kNotGeometry[] = {
+    "_materials_",          "_texture_", "_lights_",
+    "_technique",           "_xmp",      "AMD_split_roughnessMetallic",
+    "KHR_animation_pointer"};
 constexpr std::string_view kDecoded[] = {"KHR_mesh_quantization", "KHR_texture_transform",
                                          "KHR_binary_glTF"};
 
