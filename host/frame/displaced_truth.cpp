@@ -4,12 +4,12 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <mutex>
 #include <optional>
+#include <tuple>
+#include <vector>
 
 #include "host/core/angles.h"
 #include "host/core/error.h"
@@ -20,9 +20,9 @@
 namespace glintmark {
 namespace {
 
-constexpr int kMostSpp = 1 << 20;
+constexpr int kMostReliefSpp = 1 << 20;
 // Steps along a ray, in texels; a crossing within one is found by halving it.
-constexpr double kStep_px = 0.25;
+constexpr double kMarch_px = 0.25;
 constexpr int kHalvings = 24;
 // A shadow ray starts so far above its surface, in texels.
 constexpr double kLift_px = 1e-3;
@@ -30,7 +30,7 @@ constexpr double kLift_px = 1e-3;
 constexpr double kMostMaps = 4;
 // As in kernels/truth.cl: cosine of a view that meets a normal at its horizon.
 constexpr double kLeastViewZ = 1e-4;
-constexpr double kFlat = 1e-5;
+constexpr double kFlatTolerance = 1e-5;
 
 // Points of space as (u, v, height), all in units of uv.
 struct ReliefRay {
@@ -69,7 +69,7 @@ class Relief {
       end = std::min(end, (high_ - ray.origin.z) / fall);
     }
     if (ray.at(begin).z > high_ + 1e-9 || end <= begin) return std::nullopt;
-    const double step = std::min(kStep_px * texel() / std::max(across, 1e-9), (end - begin) / 4);
+    const double step = std::min(kMarch_px * texel() / std::max(across, 1e-9), (end - begin) / 4);
     double before = begin;
     for (double t = begin; t < end;) {
       t = std::min(t + step, end);
@@ -158,13 +158,13 @@ ReliefPlane planeOf(const Scene& scene) {
   plane.along_u = du / plane.length;
   plane.along_v = dv / plane.length;
   plane.normal = glm::dvec3(mesh.normals[t.x]);
-  if (std::abs(glm::length(dv) / plane.length - 1) > kFlat ||
-      std::abs(glm::dot(plane.along_u, plane.along_v)) > kFlat)
+  if (std::abs(glm::length(dv) / plane.length - 1) > kFlatTolerance ||
+      std::abs(glm::dot(plane.along_u, plane.along_v)) > kFlatTolerance)
     refuse(scene, "u and v do not stand square and alike on its mesh");
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     const glm::dvec3 place = plane.toRelief(glm::dvec3(mesh.positions[i]) - p0);
     const glm::dvec2 off = mesh.uvs[i] - plane.first_uv - glm::dvec2(place);
-    if (std::abs(place.z) > kFlat || glm::length(off) > kFlat)
+    if (std::abs(place.z) > kFlatTolerance || glm::length(off) > kFlatTolerance)
       refuse(scene, "its mesh is not one flat rectangle");
     plane.least_uv = glm::min(plane.least_uv, mesh.uvs[i]);
     plane.most_uv = glm::max(plane.most_uv, mesh.uvs[i]);
@@ -186,7 +186,7 @@ const Material& materialOf(const Scene& scene) {
   return material;
 }
 
-glm::dvec3 rgbOf(const float4& v) {
+glm::dvec3 reliefRgb(const float4& v) {
   return {v.x, v.y, v.z};
 }
 
@@ -197,14 +197,15 @@ class DisplacedTruth {
         surface_(materialOf(scene).params.surface),
         plane_(planeOf(scene)),
         relief_(*scene.materials[0].normal_map->map, options.height_scale),
-        coat_(reference::Ndf::kBeckmann, surface_.alpha_g.x, rgbOf(surface_.f0),
+        coat_(reference::Ndf::kBeckmann, surface_.alpha_g.x, reliefRgb(surface_.f0),
               surface_.intensity),
         camera_(makeCamera(view, options.width_px, options.height_px)),
         spp_(options.spp) {
     if (glm::dot(camera_.eye - plane_.origin, plane_.normal) <= 0)
       refuse(scene, "the eye is behind its mesh");
     for (const ConeLight& light : scene.lights)
-      lights_.push_back(glm::normalize(plane_.toRelief(glm::normalize(rgbOf(light.direction)))));
+      lights_.push_back(
+          glm::normalize(plane_.toRelief(glm::normalize(reliefRgb(light.direction)))));
   }
 
   glm::dvec4 pixel(int x, int y) const {
@@ -246,10 +247,10 @@ class DisplacedTruth {
       const glm::dvec3 i = local(lights_[k]);
       if (i.z <= 0 || relief_.firstHit({lifted, lights_[k]})) continue;
       const glm::dvec3 specular = reference::brdfTimesCosine(
-          i, o, glm::dvec2(surface_.alpha_g.x, surface_.alpha_g.y), rgbOf(surface_.f0));
-      sum +=
-          rgbOf(scene_.lights[k].irradiance) * (static_cast<double>(surface_.intensity) * specular +
-                                                rgbOf(surface_.albedo) * share * i.z / kPi);
+          i, o, glm::dvec2(surface_.alpha_g.x, surface_.alpha_g.y), reliefRgb(surface_.f0));
+      sum += reliefRgb(scene_.lights[k].irradiance) *
+             (static_cast<double>(surface_.intensity) * specular +
+              reliefRgb(surface_.albedo) * share * i.z / kPi);
     }
     return sum;
   }
@@ -269,9 +270,9 @@ class DisplacedTruth {
 Image renderDisplacedTruth(const Scene& scene, const View& view,
                            const DisplacedTruthOptions& options,
                            const std::function<void(int rows)>& progress) {
-  if (options.spp < 1 || options.spp > kMostSpp)
+  if (options.spp < 1 || options.spp > kMostReliefSpp)
     throw Error(fmt::format("a truth of {} samples a pixel cannot be made; it has 1 to {}",
-                            options.spp, kMostSpp));
+                            options.spp, kMostReliefSpp));
   const DisplacedTruth truth(scene, view, options);
   Image image(options.width_px, options.height_px, 4);
   image.channel_names = {"R", "G", "B", "A"};

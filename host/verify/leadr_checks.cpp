@@ -16,19 +16,19 @@
 namespace glintmark {
 namespace {
 
-constexpr int kLeadrSize_px = 24;
-constexpr double kLeadrUvPerUnit = 2000;  // hundreds of maps under every pixel
-constexpr int kLeadrStrip_px = 4096;  // shared out among a few slopes; few texels lie between two
-constexpr int kSteps = 121;           // a side of the grid over a Gaussian
-constexpr double kReach = 5;          // deviations
+constexpr int kFacetFrame_px = 24;
+constexpr double kFacetMaps = 2000;   // hundreds of maps under every pixel
+constexpr int kFacetStrip_px = 4096;  // shared out among a few slopes; few texels lie between two
+constexpr int kSlopeSteps = 121;      // a side of the grid over a Gaussian
+constexpr double kSlopeReach = 5;     // deviations
 
-struct Slopes {
+struct SlopeMoments {
   glm::dvec2 mean{0, 0};
   double xx = 0, xy = 0, yy = 0;
 };
 
-Slopes momentsOf(const std::vector<glm::vec2>& slopes) {
-  Slopes s;
+SlopeMoments slopeMoments(const std::vector<glm::vec2>& slopes) {
+  SlopeMoments s;
   const double share = 1.0 / static_cast<double>(slopes.size());
   for (const glm::vec2& slope : slopes) s.mean += share * glm::dvec2(slope);
   for (const glm::vec2& slope : slopes) {
@@ -42,14 +42,14 @@ Slopes momentsOf(const std::vector<glm::vec2>& slopes) {
 
 // The sum over the Gaussian of f(slope).
 template <typename Function>
-double overSlopes(const Slopes& s, const Function& f) {
+double overSlopes(const SlopeMoments& s, const Function& f) {
   const double root_xx = std::sqrt(s.xx), lean = s.xy / root_xx,
                rest = std::sqrt(std::max(0.0, s.yy - lean * lean));
   double sum = 0, weights = 0;
-  for (int i = 0; i < kSteps; ++i)
-    for (int j = 0; j < kSteps; ++j) {
-      const double u = kReach * ((2 * i + 1.0) / kSteps - 1);
-      const double v = kReach * ((2 * j + 1.0) / kSteps - 1);
+  for (int i = 0; i < kSlopeSteps; ++i)
+    for (int j = 0; j < kSlopeSteps; ++j) {
+      const double u = kSlopeReach * ((2 * i + 1.0) / kSlopeSteps - 1);
+      const double v = kSlopeReach * ((2 * j + 1.0) / kSlopeSteps - 1);
       const double weight = std::exp(-0.5 * (u * u + v * v));
       sum += weight * f(s.mean + glm::dvec2(root_xx * u, lean * u + rest * v));
       weights += weight;
@@ -57,18 +57,19 @@ double overSlopes(const Slopes& s, const Function& f) {
   return sum / weights;
 }
 
-double shown(const glm::dvec3& d, const glm::dvec2& slope) {
+double facetShown(const glm::dvec3& d, const glm::dvec2& slope) {
   return d.z + d.x * slope.x + d.y * slope.y;
 }
 
-struct Area {
+struct FacetArea {
   double facets = 0, plane = 0;
 };
-Area areaOf(const Slopes& s, const glm::dvec3& d) {
-  return {overSlopes(s, [&](const glm::dvec2& slope) { return std::max(0.0, shown(d, slope)); }),
-          overSlopes(s, [&](const glm::dvec2& slope) { return shown(d, slope); })};
+FacetArea facetArea(const SlopeMoments& s, const glm::dvec3& d) {
+  return {
+      overSlopes(s, [&](const glm::dvec2& slope) { return std::max(0.0, facetShown(d, slope)); }),
+      overSlopes(s, [&](const glm::dvec2& slope) { return facetShown(d, slope); })};
 }
-double maskedArea(const Area& view, const Area& light) {
+double maskedFacets(const FacetArea& view, const FacetArea& light) {
   return view.facets + std::max(0.0, view.plane) * (light.facets / light.plane - 1);
 }
 
@@ -77,18 +78,18 @@ double maskedArea(const Area& view, const Area& light) {
 struct Facets {
   double specular = 0, cosine = 0;
 };
-Facets facetsOf(const Slopes& own, const Slopes& wide, const glm::dvec3& view,
+Facets facetsOf(const SlopeMoments& own, const SlopeMoments& wide, const glm::dvec3& view,
                 const glm::dvec3& light) {
   Facets facets;
-  const Area own_light = areaOf(own, light), wide_light = areaOf(wide, light);
+  const FacetArea own_light = facetArea(own, light), wide_light = facetArea(wide, light);
   if (own_light.plane <= 0) return facets;
   facets.cosine = overSlopes(own,
                              [&](const glm::dvec2& slope) {
-                               return std::max(0.0, shown(view, slope)) *
-                                      std::max(0.0, shown(light, slope)) /
+                               return std::max(0.0, facetShown(view, slope)) *
+                                      std::max(0.0, facetShown(light, slope)) /
                                       std::sqrt(1 + glm::dot(slope, slope));
                              }) /
-                  maskedArea(areaOf(own, view), own_light);
+                  maskedFacets(facetArea(own, view), own_light);
   const glm::dvec3 h = glm::normalize(view + light);
   const glm::dvec2 off = glm::dvec2(h) / h.z - wide.mean;
   const double determinant = wide.xx * wide.yy - wide.xy * wide.xy;
@@ -97,7 +98,7 @@ Facets facetsOf(const Slopes& own, const Slopes& wide, const glm::dvec3& view,
       determinant;
   const double density =
       std::exp(-0.5 * square) / (2 * kPi * std::sqrt(determinant) * std::pow(h.z, 4));
-  facets.specular = density / (4 * maskedArea(areaOf(wide, view), wide_light));
+  facets.specular = density / (4 * maskedFacets(facetArea(wide, view), wide_light));
   return facets;
 }
 
@@ -107,31 +108,32 @@ struct LeadrCase {
   std::vector<glm::vec2> slopes;
   bool specular;
 };
-const std::vector<glm::vec2> kLevel = {{0.4f, 0.1f}, {-0.4f, -0.1f}, {0.1f, 0.3f}, {-0.1f, -0.3f}};
-const std::vector<glm::vec2> kLeadrTilted = {
+const std::vector<glm::vec2> kLevelSlopes = {
+    {0.4f, 0.1f}, {-0.4f, -0.1f}, {0.1f, 0.3f}, {-0.1f, -0.3f}};
+const std::vector<glm::vec2> kTiltedSlopes = {
     {0.9f, 0.2f}, {0.1f, 0.4f}, {0.5f, -0.1f}, {0.3f, 0.1f}};
-const std::vector<glm::vec2> kLeadrSteep = {
+const std::vector<glm::vec2> kSteepSlopes = {
     {1.5f, 0.3f}, {-1.2f, 0.4f}, {0.2f, -1.1f}, {-0.4f, 0.9f}};
 const std::vector<LeadrCase>& leadrCases() {
-  static const std::vector<LeadrCase> cases = {{"leadr/level", kLevel, true},
-                                               {"leadr/tilted", kLeadrTilted, true},
-                                               {"leadr/steep", kLeadrSteep, true},
-                                               {"leadr/level_diffuse", kLevel, false},
-                                               {"leadr/tilted_diffuse", kLeadrTilted, false},
-                                               {"leadr/steep_diffuse", kLeadrSteep, false}};
+  static const std::vector<LeadrCase> cases = {{"leadr/level", kLevelSlopes, true},
+                                               {"leadr/tilted", kTiltedSlopes, true},
+                                               {"leadr/steep", kSteepSlopes, true},
+                                               {"leadr/level_diffuse", kLevelSlopes, false},
+                                               {"leadr/tilted_diffuse", kTiltedSlopes, false},
+                                               {"leadr/steep_diffuse", kSteepSlopes, false}};
   return cases;
 }
 
 Finding facetsAreSeen(const CheckContext& context, const LeadrCase& c) {
   NormalMap map;
   map.name = "slopes";
-  map.width_px = kLeadrStrip_px;
+  map.width_px = kFacetStrip_px;
   map.height_px = 1;
-  for (std::size_t i = 0; i < kLeadrStrip_px; ++i)
+  for (std::size_t i = 0; i < kFacetStrip_px; ++i)
     map.normals.push_back(
-        glm::normalize(glm::vec3(c.slopes[i * c.slopes.size() / kLeadrStrip_px], 1)));
+        glm::normalize(glm::vec3(c.slopes[i * c.slopes.size() / kFacetStrip_px], 1)));
   Scene scene = mappedFloor(map);
-  for (auto& uv : scene.mesh.uvs) uv *= static_cast<float>(kLeadrUvPerUnit);
+  for (auto& uv : scene.mesh.uvs) uv *= static_cast<float>(kFacetMaps);
   SurfaceMaterial& surface = scene.materials[0].params.surface;
   surface.f0 = {0.04f, 0.5f, 0.9f, 0};
   surface.albedo = {0.3f, 0.2f, 0.1f, 0};
@@ -141,15 +143,15 @@ Finding facetsAreSeen(const CheckContext& context, const LeadrCase& c) {
   const auto in_floor = [](const glm::dvec3& w) { return glm::dvec3(w.x, -w.z, w.y); };
   const reference::CoatedDiffuse coat(reference::Ndf::kBeckmann, surface.alpha_g.x, rgb(surface.f0),
                                       surface.intensity);
-  const Slopes own = momentsOf(c.slopes);
-  Slopes wide = own;
+  const SlopeMoments own = slopeMoments(c.slopes);
+  SlopeMoments wide = own;
   const double base = surface.alpha_g.x;
   wide.xx += 0.5 * base * base;
   wide.yy += 0.5 * base * base;
   const glm::dvec3 mean = glm::normalize(glm::dvec3(own.mean, 1));
   const auto textures = std::make_shared<NormalTextures>(context.bench.device);
   ShadingOptions options{
-      .width_px = kLeadrSize_px, .height_px = kLeadrSize_px, .lanes = context.lanes};
+      .width_px = kFacetFrame_px, .height_px = kFacetFrame_px, .lanes = context.lanes};
   options.normal_method = NormalMethod::kLeadr;
   Finding finding(c.specular ? kLeadrHighlight : kLeadrDiffuse);
   for (const double angle_deg : {80.0, 35.0, 15.0}) {
@@ -158,8 +160,8 @@ Finding facetsAreSeen(const CheckContext& context, const LeadrCase& c) {
     renderer.prepare();
     renderer.shade();
     const Image image = renderer.readRadiance();
-    for (int y = 0; y < kLeadrSize_px; y += 7)
-      for (int x = 0; x < kLeadrSize_px; x += 7) {
+    for (int y = 0; y < kFacetFrame_px; y += 7)
+      for (int x = 0; x < kFacetFrame_px; x += 7) {
         const glm::dvec3 view = in_floor(-glm::normalize(renderer.camera().ray(x, y)));
         const glm::dvec3 share = coat.share(std::max(0.0, glm::dot(mean, view)));
         glm::dvec3 want(0);
