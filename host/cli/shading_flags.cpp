@@ -22,6 +22,14 @@ std::string uncurved(const KernelConfig& config) {
   return "is lit by area lights alone";
 }
 
+// Has the material a lobe that --round-lobes makes round?
+bool canBeRound(const KernelConfig& config, const Material& material) {
+  const float2 alpha = material.params.surface.alpha_g;
+  const bool is_mapped = config.normal_map && (config.ltc_method == LtcMethod::kMixture ||
+                                               config.ltc_method == LtcMethod::kCovariance);
+  return config.ltc && alpha.x != alpha.y && !is_mapped;
+}
+
 }  // namespace
 
 void ShadingFlags::add(Command& command, const std::string& name, std::string& value,
@@ -47,9 +55,9 @@ void ShadingFlags::addSurfaceOptions(Command& command) {
   add(command, "--geometric-aa", geometric_aa_, choiceHelp<GeometricAa>(geometric_aa_));
   add(command, "--normal-method", normal_method_, choiceHelp<NormalMethod>(normal_method_));
   add(command, "--ltc-method", ltc_method_, choiceHelp<LtcMethod>(ltc_method_));
-  given_.push_back({"--round-lobes",
-                    command.flag("--round-lobes", round_lobes_,
-                                 "Area lights see round lobes on anisotropic materials too")});
+  given_.push_back(
+      {"--round-lobes", command.flag("--round-lobes", round_lobes_,
+                                     "Area lights see round lobes on anisotropic materials too")});
 }
 
 void ShadingFlags::apply(ShadingOptions& options) const {
@@ -79,19 +87,26 @@ std::vector<std::string> ShadingFlags::idle(const Scene& scene, const ShadingOpt
   std::vector<KernelConfig> configs;
   for (const Material& material : scene.materials)
     configs.push_back(configFor(material, scene, options, 1));
-  const auto needs = [&](const char* name, bool KernelConfig::*effect, const std::string& what) {
-    const bool used =
-        std::ranges::any_of(configs, [&](const KernelConfig& one) { return one.*effect; });
+  const auto note = [&](const char* name, bool used, const std::string& what) {
     if (isGiven(name) && !used)
       notes.push_back(fmt::format("{} does nothing in scene {}, {}", name, scene.name, what));
+  };
+  const auto needs = [&](const char* name, bool KernelConfig::*effect, const std::string& what) {
+    note(name, std::ranges::any_of(configs, effect), what);
   };
   const std::string no_glints =
       options.glints ? "where no material has glints" : "since --no-glints leaves none";
   needs("--method", &KernelConfig::glint, no_glints);
   needs("--drawn-lights", &KernelConfig::glint, no_glints);
   needs("--normal-method", &KernelConfig::normal_map, "where no material has a normal map");
-  needs("--ltc-method", &KernelConfig::ltc, "which has no area lights");
-  needs("--round-lobes", &KernelConfig::ltc, "which has no area lights");
+  note("--ltc-method",
+       std::ranges::any_of(configs,
+                           [](const KernelConfig& one) { return one.ltc && one.normal_map; }),
+       "where area lights shine on no normal map");
+  bool can_be_round = false;
+  for (std::size_t i = 0; i < configs.size(); ++i)
+    can_be_round = can_be_round || canBeRound(configs[i], scene.materials[i]);
+  note("--round-lobes", can_be_round, "where area lights see no stretched lobe");
   needs("--light-cut", &KernelConfig::light_cone, "which has no cones of light");
   for (std::size_t i = 0; i < configs.size(); ++i) {
     const std::string& material = scene.materials[i].name;

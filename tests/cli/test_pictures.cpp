@@ -229,7 +229,10 @@ TEST(Render, SaysWhichOptionsDoNothing) {
               "--geometric-aa does nothing to material snow, which has microdetails");
   expect_note(notes("disk", {"--geometric-aa", "footprint"}), "--geometric-aa does nothing to");
   expect_note(notes("snow", {"--ltc-method", "exact"}),
-              "--ltc-method does nothing in scene snow, which has no area lights");
+              "--ltc-method does nothing in scene snow, where area lights shine on no normal map");
+  expect_note(notes("area_plane", {"--round-lobes"}),
+              "--round-lobes does nothing in scene area_plane, where area lights see no stretched");
+  EXPECT_EQ(notes("area_brushed", {"--round-lobes"}).find("does nothing"), std::string::npos);
   expect_note(notes("snow", {"--no-glints", "--method", "zk16"}),
               "--method does nothing in scene snow, since --no-glints leaves none");
   expect_note(notes("disk", {"--truth", "4", "--normal-method", "lean"}),

@@ -54,8 +54,8 @@ std::string stlError(const std::string& content) {
   return errorOf([&] { importMesh(file); });
 }
 
-const std::vector<Facet> kSquare = {{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}},
-                                    {{{0, 0, 0}, {1, 1, 0}, {0, 1, -0.0f}}}};
+const std::vector<Facet> kSquareFacets = {{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}},
+                                          {{{0, 0, 0}, {1, 1, 0}, {0, 1, -0.0f}}}};
 
 /// A strip of two squares that meet at an angle along the y axis.
 std::vector<Facet> roof(double angle_deg) {
@@ -70,8 +70,9 @@ std::vector<Facet> roof(double angle_deg) {
 
 TEST(Stl, BinaryAndTextAreTheSameMesh) {
   for (const std::string& content :
-       {binary(kSquare), binary(kSquare, "solid that is none"), text(kSquare, "a square"),
-        "\xEF\xBB\xBF" + text(kSquare, ""), binary(kSquare) + "what some programs append"}) {
+       {binary(kSquareFacets), binary(kSquareFacets, "solid that is none"),
+        text(kSquareFacets, "a square"), "\xEF\xBB\xBF" + text(kSquareFacets, ""),
+        binary(kSquareFacets) + "what some programs append"}) {
     const TriangleMesh mesh = stl(content).mesh;
     ASSERT_EQ(mesh.triangleCount(), 2u);
     ASSERT_EQ(mesh.positions.size(), 4u);
@@ -102,7 +103,8 @@ TEST(Stl, EdgesStayWhereTrianglesMeetAtMoreThanTheCrease) {
 }
 
 TEST(Stl, SolidsOfATextAreParts) {
-  const PartMesh mesh = stl(text({kSquare[0]}, "") + text({}, "empty") + text(kSquare, "top side"));
+  const PartMesh mesh =
+      stl(text({kSquareFacets[0]}, "") + text({}, "empty") + text(kSquareFacets, "top side"));
   EXPECT_EQ(mesh.parts, (std::vector<std::string>{"DefaultMaterial", "empty", "top side"}));
   EXPECT_EQ(mesh.mesh.triangle_materials, (std::vector<std::uint32_t>{0, 2, 2}));
 }
@@ -121,7 +123,7 @@ TEST(Stl, LongFilesAreReadInPieces) {
 
 TEST(Stl, WhatIsWrongIsSaid) {
   expectMessage(stlError(""), {"mesh.stl", "neither a text that begins with 'solid'"});
-  expectMessage(stlError(binary(kSquare, 3)), {"ends after 2 of the 3 triangles"});
+  expectMessage(stlError(binary(kSquareFacets, 3)), {"ends after 2 of the 3 triangles"});
   expectMessage(stlError(binary({}, 0xFFFFFFFFu)), {"ends after 0 of the 4294967295 triangles"});
   expectMessage(stlError(binary({})), {"no triangles"});
   expectMessage(stlError("solid\n facet\n vertex 0 0 0\n vertex 0 1 0\n endloop\n"),
@@ -130,7 +132,7 @@ TEST(Stl, WhatIsWrongIsSaid) {
   for (const char* cut : {"solid\nvertex 0 0", "solid\nvertex 0 0 0\nvertex 1 0 0\n"})
     expectMessage(stlError(cut), {"ends within a triangle"});
   expectMessage(stlError("solid\nvertex " + std::string(10000, '1')), {"line 2", "word of 4096"});
-  std::vector<Facet> broken = kSquare;
+  std::vector<Facet> broken = kSquareFacets;
   broken[1][2].y = NAN;
   expectMessage(stlError(binary(broken)), {"position of vertex", "not finite"});
 }

@@ -25,7 +25,7 @@ constexpr std::size_t kLongestWord = 4096;
 constexpr std::size_t kMostTriangles = 0xFFFFFFF0u / 3;
 
 /// A place, and the number of the surface through it that a corner belongs to.
-struct Corner {
+struct StlCorner {
   glm::vec3 place;
   std::uint32_t surface = 0;
 
@@ -37,7 +37,7 @@ struct Corner {
       words[static_cast<std::size_t>(i)] = std::bit_cast<std::uint32_t>(place[i] + 0.0f);
     return words;
   }
-  bool operator==(const Corner& other) const {
+  bool operator==(const StlCorner& other) const {
     return surface == other.surface && bits() == other.bits();
   }
   std::uint64_t hash() const {
@@ -60,12 +60,12 @@ class StlReader {
       readBinary();
     }
     first_normals_ = {};
-    std::vector<Corner> corners = corners_.take();
+    std::vector<StlCorner> corners = corners_.take();
     out_.normals.assign(corners.size(), glm::vec3(0));
     out_.uvs.assign(corners.size(), kNoUv);
     out_.positions.reserve(corners.size());
     out_.smoothing.reserve(corners.size());
-    for (const Corner& corner : corners) {
+    for (const StlCorner& corner : corners) {
       out_.positions.emplace_back(corner.place);
       out_.smoothing.push_back(corner.surface);
     }
@@ -232,7 +232,7 @@ class StlReader {
 
   std::uint32_t vertexOf(const glm::vec3& place, const glm::vec3& normal) {
     static const float kLeastCosine = static_cast<float>(std::cos(glm::radians(kStlCrease_deg)));
-    for (Corner corner{place};; ++corner.surface) {
+    for (StlCorner corner{place};; ++corner.surface) {
       const std::uint32_t vertex = corners_.add(corner);
       if (vertex == first_normals_.size()) first_normals_.push_back(normal);
       glm::vec3& first = first_normals_[vertex];
@@ -247,7 +247,7 @@ class StlReader {
   std::size_t at_ = 0;    // in a piece of text
   std::size_t line_ = 1;  // of the text
   std::uint32_t part_ = 0;
-  DistinctValues<Corner> corners_;
+  DistinctValues<StlCorner> corners_;
   std::vector<glm::vec3> first_normals_;  // per vertex, of its first triangle
   MeshSource out_;
 };
