@@ -1,11 +1,11 @@
 // Microfacet BRDFs in double precision: GGX and Beckmann with height-correlated Smith masking and
 // shadowing, G2 = 1 / (1 + Lambda(i) + Lambda(o)). [Heitz14] Eq. 99
 //
-// Directions are unit vectors in the tangent frame (z: normal). A roughness is a number, or one each
-// along x and y of that frame. The fit of linearly transformed
-// cosines and the Monte Carlo ground truth use this same BRDF.
-// [Walter07] "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007. [Heitz14]
-// "Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs", JCGT 3(2).
+// Directions are unit vectors in the tangent frame (z: normal). A roughness is a number, or one
+// each along x and y of that frame. The fit of linearly transformed cosines and the Monte Carlo
+// ground truth use this same BRDF. [Walter07] "Microfacet Models for Refraction through Rough
+// Surfaces", EGSR 2007. [Heitz14] "Understanding the Masking-Shadowing Function in Microfacet-Based
+// BRDFs", JCGT 3(2).
 #pragma once
 #include <glm/glm.hpp>
 
