@@ -135,6 +135,10 @@ TEST(Stl, WhatIsWrongIsSaid) {
   std::vector<Facet> broken = kSquareFacets;
   broken[1][2].y = NAN;
   expectMessage(stlError(binary(broken)), {"position of vertex", "not finite"});
+  // Many of them take no longer, although no two are equal by value.
+  const glm::vec3 none(NAN);
+  const std::vector<Facet> many(60000, Facet{none, none, none});
+  expectMessage(stlError(binary(many)), {"position of vertex 0", "not finite"});
 }
 
 }  // namespace
