@@ -113,8 +113,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadValue{"diffuse_masking = 2", "expected a number in [0, 1]"},
         BadValue{"compensation = \"full\"",
                  "is 'full', expected off, lobe, simulated, mean, kulla_conty or fdez_aguera"},
-        BadValue{"albedo = 0.5\ncompensation = \"kulla_conty\"", "it needs albedo 0"},
-        BadValue{"ndf = \"ggx\"\ncompensation = \"simulated\"", "is of Beckmann's facets"},
+        BadValue{"compensation = \"kulla_conty\"\nalbedo = 0.5", "it needs albedo 0"},
+        BadValue{"compensation = \"simulated\"\nndf = \"ggx\"", "is of Beckmann's facets"},
         BadValue{"palette = \"rainbow\"", "expected \"wheel\" or a list"},
         BadValue{"palette = []", "has 0 colours, expected 1 to 8"},
         BadValue{"palette = 3", "expected a list of colours"}));
