@@ -217,9 +217,9 @@ Finding narrowProbability(const CheckContext& context) {
         const glm::dvec3 m = glm::normalize(glm::dvec3(0.1, -0.05, 1));
         cases.push_back({2 * glm::dot(view, m) * m - view, view});
       }
-    // Some two thirds of the cone's slopes, for which ellipses have masses; and twice as much, for
-    // which a series does.
-    for (const double micro : {0.8 * half_rad, 1.6 * half_rad}) {
+    // A quarter and two thirds of the cone's slopes, for which ellipses have masses; and twice as
+    // much, for which a series does.
+    for (const double micro : {0.3 * half_rad, 0.8 * half_rad, 1.6 * half_rad}) {
       const auto probed = probeCones(context, cases, materialOf(alpha, micro), half_rad, false);
       for (std::size_t i = 0; i < cases.size(); ++i) {
         const double want = reference::coneProbability({cases[i].axis, half_rad}, cases[i].view,

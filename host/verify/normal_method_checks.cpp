@@ -118,6 +118,9 @@ const std::vector<glm::vec2> kDiagonal = {
 const std::vector<glm::vec2> kSquare = {{0.1f, 0.1f}, {-0.1f, 0.1f}, {0.1f, -0.1f}, {-0.1f, -0.1f}};
 const std::vector<glm::vec2> kAlongU = {{0.2f, 0}, {0.06f, 0}, {0.17f, 0.01f}, {0.09f, -0.01f}};
 const std::vector<glm::vec2> kTilted = {{0.2f, -0.1f}};
+// Closer together than the base lobe shows: four lobes become one before they are lanes.
+const std::vector<glm::vec2> kClose = {
+    {0.25f, -0.1f}, {0.15f, -0.1f}, {0.2f, -0.05f}, {0.2f, -0.15f}};
 const std::vector<glm::vec2> kSteep = {{1.4f, 0.2f}, {1.1f, -0.7f}, {0.6f, 0.5f}, {2.2f, 0.1f}};
 const std::vector<glm::vec2> kClusters = clusteredSlopes();
 const std::vector<glm::vec2> kRows = rowsOfSlopes();
@@ -143,6 +146,7 @@ const std::vector<MethodCase>& methodCases() {
       {"anisotropic_rows", NormalMethod::kAnisotropic, kRows, false, kGaussianOfNormals},
       {"gmm_tilted", NormalMethod::kGmm, kTilted, false, kTiltedLobe},
       {"gmm_apart", NormalMethod::kGmm, kApart, false, kTiltedLobe},
+      {"gmm_close", NormalMethod::kGmm, kClose, false, kTiltedLobe},
       {"gmm_clusters", NormalMethod::kGmm, kClusters, false, kGaussianOfNormals},
       {"gmm_half", NormalMethod::kGmm, kClusters, false, kGaussianOfNormals, true}};
   return cases;

@@ -192,14 +192,14 @@ Finding metalWay(const CheckContext& context, const Rival& rival) {
         // Kulla and Conty's lobe is a product of two losses over their mean, which is small where
         // the metal is smooth: an error of either grows with the other.
         const double losses = 2 - metal.mirror(z) - metal.mirror(light_z);
-        const double grown = rival.compensation == Compensation::kKullaConty
-                                 ? kIntensity * losses / (kPi * (1 - metal.meanMirror()))
-                                 : 0;
+        const double grown =
+            rival.compensation == Compensation::kKullaConty
+                ? std::max(1.0, kIntensity * losses / (kPi * (1 - metal.meanMirror())))
+                : 0.5;
         for (int c = 0; c < 3; ++c) {
           const double want = kIntensity * metal.brdfTimesCosine(rival.way, kF0[c], light, view);
-          finding.add(
-              std::abs(got[c] - want) /
-              (kMaskingTolerance * want + kCompensationTolerance * light_z * std::max(grown, 1.0)));
+          finding.add(std::abs(got[c] - want) /
+                      (kMaskingTolerance * want + kCompensationTolerance * light_z * grown));
         }
       }
   }
