@@ -2,13 +2,17 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <signal.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
+#include <chrono>
 #include <cstring>
 #include <string>
+#include <thread>
 
 #include "host/core/error.h"
 
@@ -18,11 +22,22 @@ namespace {
 
 constexpr const char* kLockName = ".lock";
 
-// What the holder has written about itself.
-std::string holderOf(int descriptor) {
+// How often, and how long each time, the children of a holder that was killed are waited for: they
+// share its lock and end a moment after it.
+constexpr int kMostWaits = 250;
+constexpr std::chrono::milliseconds kWait{20};
+
+// The process that the holder has written itself to be; 0: none.
+pid_t holderOf(int descriptor) {
   char text[32] = {};
   const ssize_t size = pread(descriptor, text, sizeof(text) - 1, 0);
-  return size > 0 ? fmt::format("process {}", text) : std::string("another process");
+  pid_t holder = 0;
+  if (size > 0) std::from_chars(text, text + size, holder);
+  return holder;
+}
+
+bool isGone(pid_t process) {
+  return process > 0 && kill(process, 0) != 0 && errno == ESRCH;
 }
 
 bool isRegular(int descriptor) {
@@ -56,12 +71,17 @@ FolderLock::FolderLock(const fs::path& file, const std::string& what, const std:
       throw Error(fmt::format("{} is no regular file, expected a lock file or none; remove it",
                               file_.string()));
     }
-    if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+    for (int waits = 0; flock(descriptor_, LOCK_EX | LOCK_NB) != 0; ++waits) {
       if (errno != EWOULDBLOCK) return;
-      const std::string holder = holderOf(descriptor_);
+      const pid_t holder = holderOf(descriptor_);
+      if (isGone(holder) && waits < kMostWaits) {
+        std::this_thread::sleep_for(kWait);
+        continue;
+      }
       close(descriptor_);
-      throw Error(
-          fmt::format("{} is in use by another run ({}); wait for it or {}", what, holder, advice));
+      throw Error(fmt::format("{} is in use by another run ({}); wait for it or {}", what,
+                              holder > 0 ? fmt::format("process {}", holder) : "another process",
+                              advice));
     }
     if (isStillThere(descriptor_, file_)) break;
     close(descriptor_);
