@@ -4,24 +4,11 @@
 #include <cmath>
 
 #include "host/core/angles.h"
+#include "host/fit/sample_grid.h"
 #include "host/reference/ltc.h"
 
 namespace glintmark {
 namespace {
-
-// Proposals are this much wider than what they stand for, so that weights stay small beside peaks.
-constexpr double kWidenAnisotropic = 1.4;
-
-// Point (i, j) of a grid in the unit square, the second axis a whole turn. Columns are shifted
-// against each other, so that no two samples of a round lobe fall on one ring.
-struct TurnPoint {
-  double share, angle_rad;
-};
-TurnPoint turnPoint(int i, int j, int rows, int columns) {
-  constexpr double kGolden = 0.6180339887498949;
-  const double shift = (j + 0.5) * kGolden;
-  return {(i + shift - std::floor(shift)) / rows, 2 * kPi * (j + 0.5) / columns};
-}
 
 class AnisotropicSampler {
  public:
@@ -29,25 +16,26 @@ class AnisotropicSampler {
                      const AnisotropicSampleCounts& counts)
       : view_(view),
         o_(view.view()),
-        wide_alpha_(kWidenAnisotropic * view.alpha),
-        inverse_(glm::dmat3(glm::dvec3(1), glm::dvec3(1), glm::dvec3(1))),
+        wide_alpha_(kWidenProposal * view.alpha),
+        inverse_(inverse),
+        forward_(1),
         facets_(counts.facet_radial * counts.facet_azimuth),
         lobes_(counts.lobe_radial * counts.lobe_azimuth),
         uniforms_(counts.hemisphere_radial * counts.hemisphere_azimuth) {
     // Rows x and y of M^-1 over the factor make the lobe wider by it.
-    inverse_ = inverse;
     for (int column = 0; column < 3; ++column)
-      for (int row = 0; row < 2; ++row) inverse_[column][row] /= kWidenAnisotropic;
+      for (int row = 0; row < 2; ++row) inverse_[column][row] /= kWidenProposal;
+    forward_ = glm::inverse(inverse_);
   }
 
   // All samples of one technique, `make` of a grid point.
   template <typename Make>
   void addGrid(int rows, int columns, const Make& make) {
     for (int i = 0; i < rows; ++i)
-      for (int j = 0; j < columns; ++j) add(make(turnPoint(i, j, rows, columns)));
+      for (int j = 0; j < columns; ++j) add(make(gridPoint(i, j, rows, columns, 2 * kPi)));
   }
 
-  glm::dvec3 facetMirror(const TurnPoint& p) const {
+  glm::dvec3 facetMirror(const GridPoint& p) const {
     const double slope_sq =
         view_.ndf == reference::Ndf::kGgx ? p.share / (1 - p.share) : -std::log1p(-p.share);
     const glm::dvec2 slope =
@@ -57,16 +45,8 @@ class AnisotropicSampler {
     return 2 * glm::dot(o_, m) * m - o_;
   }
 
-  glm::dvec3 lobeDirection(const TurnPoint& p) const {
-    const double radius = std::sqrt(p.share);
-    return glm::normalize(glm::inverse(inverse_) * glm::dvec3(radius * std::cos(p.angle_rad),
-                                                              radius * std::sin(p.angle_rad),
-                                                              std::sqrt(1 - p.share)));
-  }
-
-  static glm::dvec3 uniformDirection(const TurnPoint& p) {
-    const double radius = std::sqrt(1 - p.share * p.share);
-    return {radius * std::cos(p.angle_rad), radius * std::sin(p.angle_rad), p.share};
+  glm::dvec3 lobeDirection(const GridPoint& p) const {
+    return glm::normalize(forward_ * cosineDirection(p));
   }
 
   AnisotropicSamples samples;
@@ -91,7 +71,7 @@ class AnisotropicSampler {
   AnisotropicView view_;
   glm::dvec3 o_;
   glm::dvec2 wide_alpha_;
-  glm::dmat3 inverse_;
+  glm::dmat3 inverse_, forward_;
   double facets_, lobes_, uniforms_;
 };
 
@@ -119,11 +99,11 @@ AnisotropicSamples makeAnisotropicSamples(const AnisotropicView& view, const glm
                                           const AnisotropicSampleCounts& counts) {
   AnisotropicSampler sampler(view, inverse, counts);
   sampler.addGrid(counts.facet_radial, counts.facet_azimuth,
-                  [&](const TurnPoint& p) { return sampler.facetMirror(p); });
+                  [&](const GridPoint& p) { return sampler.facetMirror(p); });
   sampler.addGrid(counts.lobe_radial, counts.lobe_azimuth,
-                  [&](const TurnPoint& p) { return sampler.lobeDirection(p); });
+                  [&](const GridPoint& p) { return sampler.lobeDirection(p); });
   sampler.addGrid(counts.hemisphere_radial, counts.hemisphere_azimuth,
-                  [&](const TurnPoint& p) { return sampler.uniformDirection(p); });
+                  [&](const GridPoint& p) { return uniformDirection(p); });
   return std::move(sampler.samples);
 }
 

@@ -4,35 +4,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/fit/sample_grid.h"
 #include "host/reference/ltc.h"
 
 namespace glintmark {
 namespace {
-
-// The proposal is this much wider than the lobe, so that weights stay small beside its peak.
-constexpr double kWiden = 1.4;
-
-// Point (i, j) of a grid in the unit square, the second axis half a turn. Each column is shifted by
-// its own share of a row, so that no two samples of a round lobe fall on one ring: an absolute
-// difference has a kink wherever it vanishes at a sample, and rings would add up to large ones.
-struct GridPoint {
-  double share, angle_rad;
-};
-GridPoint gridPoint(int i, int j, int rows, int columns) {
-  constexpr double kGolden = 0.6180339887498949;
-  const double shift = (j + 0.5) * kGolden;
-  return {(i + shift - std::floor(shift)) / rows, std::numbers::pi * (j + 0.5) / columns};
-}
-
-glm::dvec3 cosineDirection(const GridPoint& p) {
-  const double radius = std::sqrt(p.share);
-  return {radius * std::cos(p.angle_rad), radius * std::sin(p.angle_rad), std::sqrt(1 - p.share)};
-}
-
-glm::dvec3 uniformDirection(const GridPoint& p) {
-  const double radius = std::sqrt(1 - p.share * p.share);
-  return {radius * std::cos(p.angle_rad), radius * std::sin(p.angle_rad), p.share};
-}
 
 class SampleMaker {
  public:
@@ -79,21 +55,22 @@ class SampleMaker {
 LtcSamples makeLtcSamples(reference::Ndf ndf, double alpha, double cos_theta,
                           const LtcLobe& proposal, const LtcSampleCounts& counts) {
   LtcLobe wide = proposal;
-  wide.log_width_x += std::log(kWiden);
-  wide.log_width_y += std::log(kWiden);
+  wide.log_width_x += std::log(kWidenProposal);
+  wide.log_width_y += std::log(kWidenProposal);
   const glm::dmat3 inverse = ltcInverseMatrix(wide);
   const glm::dmat3 forward = glm::inverse(inverse);
   SampleMaker maker(ndf, alpha, cos_theta, inverse, counts);
   for (int i = 0; i < counts.lobe_radial; ++i) {
     for (int j = 0; j < counts.lobe_azimuth; ++j) {
-      maker.add(glm::normalize(
-          forward * cosineDirection(gridPoint(i, j, counts.lobe_radial, counts.lobe_azimuth))));
+      maker.add(glm::normalize(forward *
+                               cosineDirection(gridPoint(i, j, counts.lobe_radial,
+                                                         counts.lobe_azimuth, std::numbers::pi))));
     }
   }
   for (int i = 0; i < counts.hemisphere_radial; ++i) {
     for (int j = 0; j < counts.hemisphere_azimuth; ++j) {
-      const glm::dvec3 up =
-          uniformDirection(gridPoint(i, j, counts.hemisphere_radial, counts.hemisphere_azimuth));
+      const glm::dvec3 up = uniformDirection(
+          gridPoint(i, j, counts.hemisphere_radial, counts.hemisphere_azimuth, std::numbers::pi));
       maker.add(up);
       if (maker.samples.whole_sphere) maker.add({up.x, up.y, -up.z});
     }
