@@ -1,9 +1,13 @@
 #include "host/report/record/folder_lock.h"
 
 #include <gtest/gtest.h>
+#include <signal.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#include <chrono>
+#include <thread>
 
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
@@ -33,6 +37,31 @@ TEST(FolderLock, AFileThatAKilledRunLeftIsNoLock) {
   ASSERT_EQ(waitpid(child, nullptr, 0), child);
   EXPECT_EQ(folder.entryCount(), 1u);
   const FolderLock lock(folder.path());
+}
+
+// The holder's child shares its lock for three seconds more, longer than a holder that is well
+// gets.
+TEST(FolderLock, AHolderThatWasKilledIsWaitedFor) {
+  const TempFolder folder;
+  int ready[2] = {};
+  ASSERT_EQ(pipe(ready), 0);
+  const pid_t holder = fork();
+  if (holder == 0) {
+    const FolderLock lock(folder.path());
+    if (fork() == 0) {
+      std::this_thread::sleep_for(std::chrono::seconds(3));
+      _exit(0);
+    }
+    if (write(ready[1], "x", 1) != 1) _exit(1);
+    while (true) pause();
+  }
+  char byte = 0;
+  ASSERT_EQ(read(ready[0], &byte, 1), 1);
+  ASSERT_EQ(kill(holder, SIGKILL), 0);
+  // Nobody has collected the holder's end: it is there still, as one that is being ended is.
+  EXPECT_NO_THROW(FolderLock{folder.path()});
+  EXPECT_EQ(waitpid(holder, nullptr, 0), holder);
+  for (const int end : ready) close(end);
 }
 
 TEST(FolderLock, LinksAndPipesAreNotFollowed) {

@@ -10,8 +10,11 @@
 #include <cerrno>
 #include <charconv>
 #include <chrono>
+#include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <string>
+#include <string_view>
 #include <thread>
 
 #include "host/core/error.h"
@@ -22,10 +25,11 @@ namespace {
 
 constexpr const char* kLockName = ".lock";
 
-// How often, and how long each time, the children of a holder that was killed are waited for: they
-// share its lock and end a moment after it.
-constexpr int kMostWaits = 250;
-constexpr std::chrono::milliseconds kWait{20};
+// How often a lock is tried again, and after how long each time. A holder that was killed keeps it
+// until the system has taken its memory and its children have ended, who share it: that may take
+// seconds. Any other gets a moment, since an end is not seen at its every step.
+constexpr int kMostTries = 500, kMostTriesWhileAlive = 25;
+constexpr std::chrono::milliseconds kBetweenTries{20};
 
 // The process that the holder has written itself to be; 0: none.
 pid_t holderOf(int descriptor) {
@@ -36,8 +40,26 @@ pid_t holderOf(int descriptor) {
   return holder;
 }
 
-bool isGone(pid_t process) {
-  return process > 0 && kill(process, 0) != 0 && errno == ESRCH;
+// The value of a line of /proc/PID/status; empty: there is none.
+std::string statusOf(pid_t process, std::string_view name) {
+  std::ifstream status(fmt::format("/proc/{}/status", process));
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with(name) && line.size() > name.size() && line[name.size()] == ':')
+      return line.substr(line.find_first_not_of(" \t", name.size() + 1));
+  return {};
+}
+
+// Has the process ended, or is SIGKILL on its way to it? The watched child of a run that was killed
+// is told by the system to end, and is still there for a moment.
+bool isEnding(pid_t process) {
+  if (process <= 0) return false;
+  if (kill(process, 0) != 0) return errno == ESRCH;
+  const std::string state = statusOf(process, "State");
+  if (state.starts_with('Z') || state.starts_with('X')) return true;
+  constexpr unsigned long long kKillBit = 1ULL << (SIGKILL - 1);
+  for (const char* pending : {"SigPnd", "ShdPnd"})
+    if (std::strtoull(statusOf(process, pending).c_str(), nullptr, 16) & kKillBit) return true;
+  return false;
 }
 
 bool isRegular(int descriptor) {
@@ -71,11 +93,11 @@ FolderLock::FolderLock(const fs::path& file, const std::string& what, const std:
       throw Error(fmt::format("{} is no regular file, expected a lock file or none; remove it",
                               file_.string()));
     }
-    for (int waits = 0; flock(descriptor_, LOCK_EX | LOCK_NB) != 0; ++waits) {
+    for (int tries = 1; flock(descriptor_, LOCK_EX | LOCK_NB) != 0; ++tries) {
       if (errno != EWOULDBLOCK) return;
       const pid_t holder = holderOf(descriptor_);
-      if (isGone(holder) && waits < kMostWaits) {
-        std::this_thread::sleep_for(kWait);
+      if (tries < (isEnding(holder) ? kMostTries : kMostTriesWhileAlive)) {
+        std::this_thread::sleep_for(kBetweenTries);
         continue;
       }
       close(descriptor_);
