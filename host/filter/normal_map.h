@@ -16,7 +16,7 @@ namespace glintmark {
 
 /// Texels per side that a map may have.
 inline constexpr int kMaxNormalMapSize_px = 16384;
-/// Gaussians that may stand for the normals of a texel: LOBES of kernels/config.clh.
+/// Gaussians that may stand for the normals of a texel: LOBES of kernels/normals/normal_config.clh.
 inline constexpr int kMaxLobes = 8;
 
 /// Unit normals with z > 0, row by row.

@@ -97,8 +97,12 @@ class ProbeKernelsTest : public OclTest {
   ProbeKernelsTest() {
     const std::filesystem::path project = std::filesystem::path(GLINTMARK_SOURCE_DIR) / "kernels";
     std::filesystem::copy(project / "probes", kernels_ / "probes");
-    for (const char* file : {"config.clh", "types.h"})
-      std::filesystem::copy(project / file, kernels_);
+    for (const char* file :
+         {"config.clh", "types.h", "area/area_config.clh", "glint/glint_config.clh",
+          "normals/normal_config.clh", "scatter/scatter_config.clh"}) {
+      std::filesystem::create_directories((kernels_ / file).parent_path());
+      std::filesystem::copy(project / file, kernels_ / file);
+    }
   }
 };
 

@@ -124,12 +124,18 @@ TEST(SwitchTable, EveryDefaultStandsInOneKernelFile) {
   for (const Switch& row : allSwitches()) EXPECT_EQ(places[row.macro], 1) << row.macro;
 }
 
-TEST(SwitchTable, ConfigHoldsNothingElse) {
-  const std::string text = readFile(kKernels / "config.clh");
+TEST(SwitchTable, ConfigsHoldNothingElse) {
   const std::regex default_of("#ifndef (\\w+)\n#define \\1 ");
-  for (auto it = std::sregex_iterator(text.begin(), text.end(), default_of);
-       it != std::sregex_iterator(); ++it)
-    EXPECT_NO_THROW(switchNamed((*it)[1].str()));
+  int files = 0;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(kKernels)) {
+    if (!entry.path().filename().string().ends_with("config.clh")) continue;
+    ++files;
+    const std::string text = readFile(entry.path());
+    for (auto it = std::sregex_iterator(text.begin(), text.end(), default_of);
+         it != std::sregex_iterator(); ++it)
+      EXPECT_NO_THROW(switchNamed((*it)[1].str())) << entry.path();
+  }
+  EXPECT_GT(files, 1);
 }
 
 TEST(SwitchTable, KernelsHaveTheSameDefaults) {
