@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
-#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -18,6 +17,7 @@
 
 #include "host/core/control_group.h"
 #include "host/core/error.h"
+#include "host/core/process_end.h"
 
 namespace glintmark {
 namespace {
@@ -40,8 +40,7 @@ void limitMemory(std::uint64_t bytes) {
 
 [[noreturn]] void runChild(const std::function<void(int channel)>& work, const ChildLimits& limits,
                            pid_t parent, int channel) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(1);
+  dieWithParent(parent, 1);
   for (const int number : {SIGINT, SIGTERM, SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGXCPU})
     signal(number, SIG_DFL);
   limitResource(RLIMIT_CORE, 0);
@@ -80,8 +79,7 @@ ChildProcess::~ChildProcess() {
   close(channel_);
   if (pid_ <= 0) return;
   kill(pid_, SIGKILL);
-  while (waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
-  }
+  awaitProcess(pid_);
 }
 
 bool ChildProcess::waitForFirst() {
@@ -124,18 +122,12 @@ std::size_t ChildProcess::read(void* bytes, std::size_t count) {
 
 std::string ChildProcess::finish() {
   shutdown(channel_, SHUT_WR);
-  int status = 0;
-  while (waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
-  }
+  const int status = awaitProcess(pid_);
   pid_ = -1;
   if (late_) return fmt::format("was not done after {:g} s", limits_.wall_s);
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
     return fmt::format("was not done after {:g} s of computing", limits_.cpu_s);
-  if (WIFSIGNALED(status))
-    return fmt::format("was ended by signal {} ({})", WTERMSIG(status),
-                       strsignal(WTERMSIG(status)));
-  if (WEXITSTATUS(status) != 0) return fmt::format("ended with exit code {}", WEXITSTATUS(status));
-  return {};
+  return status == 0 ? std::string() : howItEnded(status);
 }
 
 }  // namespace glintmark

@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "host/core/error.h"
+#include "host/core/process_end.h"
 #include "host/core/stopwatch.h"
 #include "host/experiment/watched_child.h"
 #include "host/parallel/ranks.h"

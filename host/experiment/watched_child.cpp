@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <signal.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -13,6 +12,7 @@
 #include <cstring>
 
 #include "host/core/error.h"
+#include "host/core/process_end.h"
 
 namespace glintmark {
 namespace {
@@ -65,16 +65,13 @@ pid_t startChild(bool own_group) {
   } else if (child == 0) {
     if (own_group) setpgid(0, 0);
     for (const int number : {SIGINT, SIGTERM}) signal(number, SIG_DFL);
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent) _exit(kExitCheckFailed);
+    dieWithParent(parent, kExitCheckFailed);
   }
   return child;
 }
 
 int awaitChild(pid_t child) {
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
+  const int status = awaitProcess(child);
   watched_child = 0;
   return status;
 }
@@ -84,11 +81,6 @@ bool wasAskedToEnd(int status) {
   return asked_to_end != 0 ||
          (WIFSIGNALED(status) &&
           std::ranges::find(kRequests, WTERMSIG(status)) != std::end(kRequests));
-}
-
-std::string howItEnded(int status) {
-  if (!WIFSIGNALED(status)) return fmt::format("ended with exit code {}", WEXITSTATUS(status));
-  return fmt::format("ended by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)));
 }
 
 std::string whyItEnded(int status) {

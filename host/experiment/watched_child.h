@@ -17,9 +17,7 @@ int awaitChild(pid_t child);
 /// Was the child asked to end, or killed? A driver that dies is something else.
 bool wasAskedToEnd(int status);
 
-/// How a process ended, by the status that waitpid() gave.
-std::string howItEnded(int status);
-/// The same in the words for one that nobody goes on with: what may have killed it.
+/// How it ended, in the words for one that nobody goes on with: what may have killed it.
 std::string whyItEnded(int status);
 
 /// What its parent returns in its place.

@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
-#include <sys/prctl.h>
 #include <sys/socket.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -17,9 +15,9 @@
 #include <utility>
 
 #include "host/core/error.h"
+#include "host/core/process_end.h"
 #include "host/core/stopwatch.h"
 #include "host/experiment/interrupt.h"
-#include "host/experiment/watched_child.h"
 #include "host/verify/check_result_json.h"
 
 namespace glintmark {
@@ -75,8 +73,7 @@ void serve(const std::vector<Check>& checks, const CheckProcess::Open& open, int
 // The child's main; never returns. Ctrl-C reaches it too, but it is the parent that ends it.
 [[noreturn]] void runChild(const std::vector<Check>& checks, const CheckProcess::Open& open,
                            int socket, pid_t parent) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(kExitCheckFailed);
+  dieWithParent(parent, kExitCheckFailed);
   signal(SIGINT, SIG_IGN);
   signal(SIGTERM, SIG_DFL);
   try {
@@ -124,8 +121,7 @@ CheckProcess::~CheckProcess() {
 void CheckProcess::end() {
   if (pid_ <= 0) return;
   kill(pid_, SIGKILL);
-  while (waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
-  }
+  awaitProcess(pid_);
   close(socket_);
   pid_ = -1;
 }
@@ -144,9 +140,7 @@ CheckProcess::Answer CheckProcess::await(double timeout_s, const std::function<b
     }
     pollfd waiting = {socket_, POLLIN, 0};
     if (poll(&waiting, 1, kPollMs) <= 0 || receive(socket_, received_)) continue;
-    int status = 0;
-    while (waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
-    }
+    const int status = awaitProcess(pid_);
     close(socket_);
     pid_ = -1;
     return {{}, howItEnded(status)};

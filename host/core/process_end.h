@@ -1,0 +1,20 @@
+// How a process that this one started ends.
+#pragma once
+#include <sys/types.h>
+
+#include <string>
+
+namespace glintmark {
+
+/// Called in a child right after the fork: it dies with `parent`, and if that has died before the
+/// call it ends now, with the exit code that is given.
+void dieWithParent(pid_t parent, int exit_code);
+
+/// Waits for a child, through signals: the status that waitpid() gives.
+int awaitProcess(pid_t child);
+
+/// How a process ended, by that status: "ended by signal 11 (Segmentation fault)", "ended with exit
+/// code 7".
+std::string howItEnded(int status);
+
+}  // namespace glintmark
