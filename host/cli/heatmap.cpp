@@ -65,8 +65,6 @@ int runView(const CommonOptions& common, const HeatmapCommand& command,
 
   const std::string name = scene.name + "/" + view.name;
   const std::string unit = visitedUnit(shading.method);
-  if (counted.counts.glint_px == 0)
-    fmt::print(stderr, "note: no pixel of {} shows glints, so there are no cells\n", name);
   if (!command.picture.empty()) {
     const Image picture = heatmapPicture(counted.cells, {.scale = scale,
                                                          .title = name + ", " + unit + " per pixel",

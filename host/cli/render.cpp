@@ -2,12 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
 
 #include "host/cli/command_line.h"
+#include "host/cli/picture_verdict.h"
 #include "host/cli/shading_flags.h"
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
@@ -67,18 +67,26 @@ void printTimes(const std::string& what, const FrameTimes& raster, const FrameTi
              by_wall ? " by the wall clock" : "", readback_ns * 1e-6);
 }
 
+bool isPng(const RenderOptions& options) {
+  return requireImageExtension(options.output) == ".png";
+}
+
+bool showsBackground(const RenderOptions& options, const Scene& scene) {
+  const bool chosen = options.background_chosen ? options.background : isPng(options);
+  return chosen && scene.environment.map != nullptr;
+}
+
 // PNG gets the scene's post effects and what lies behind it. EXR holds radiance for measuring, with
 // either only on demand.
 void writeRendered(Image radiance, const RenderOptions& options, const Scene& scene,
                    const View& view, const PictureFacts& facts) {
-  const bool is_png = requireImageExtension(options.output) == ".png";
+  const bool is_png = isPng(options);
   const PostEffects& post = scene.post;
   const double exposure = options.exposure.value_or(post.exposure);
   if (options.star_chosen ? options.star : is_png && post.star) {
     applyStar(radiance, {.threshold = 1 / exposure});  // exposed radiance 1
   }
-  if (options.background_chosen ? options.background : is_png)
-    placeBackground(radiance, scene, view);
+  if (showsBackground(options, scene)) placeBackground(radiance, scene, view);
   if (is_png) {
     writePng(toneMap(radiance, {.exposure = exposure}), options.output, facts);
   } else {
@@ -86,20 +94,12 @@ void writeRendered(Image radiance, const RenderOptions& options, const Scene& sc
   }
 }
 
-// Pixels with a value that is not finite.
-std::size_t brokenPixels(const Image& radiance) {
-  std::size_t broken = 0;
-  for (int y = 0; y < radiance.height; ++y)
-    for (int x = 0; x < radiance.width; ++x)
-      broken += !std::ranges::all_of(radiance.at(x, y), [](float v) { return std::isfinite(v); });
-  return broken;
-}
-
-bool coversNothing(const Image& radiance) {
-  for (int y = 0; y < radiance.height; ++y)
-    for (int x = 0; x < radiance.width; ++x)
-      if (radiance.at(x, y)[3] != 0) return false;
-  return true;
+// The exit code of a picture, which is written whatever is wrong with it.
+int writeJudged(Image radiance, const RenderOptions& options, const Scene& scene, const View& view,
+                const PictureFacts& facts) {
+  const PictureFault fault = judgePicture(radiance, scene, view, showsBackground(options, scene));
+  writeRendered(std::move(radiance), options, scene, view, facts);
+  return fault == PictureFault::kNone ? kExitDone : kExitCheckFailed;
 }
 
 int runZoom(const CommonOptions& common, const RenderOptions& options,
@@ -193,31 +193,6 @@ Image renderedRelief(const CommandLine& line, const Scene& scene, const View& vi
   return truth;
 }
 
-bool isBlack(const Image& radiance) {
-  for (int y = 0; y < radiance.height; ++y)
-    for (int x = 0; x < radiance.width; ++x)
-      for (const float value : radiance.at(x, y).first(3))
-        if (value != 0) return false;
-  return true;
-}
-
-// 1 if it is not finite everywhere, which is said; a picture that is empty or black is noted.
-int judgePicture(const Image& radiance, const Scene& scene, const View& view) {
-  if (coversNothing(radiance))
-    fmt::print(stderr, "note: view {} of {} covers no pixel, so the picture is empty\n", view.name,
-               scene.name);
-  else if (isBlack(radiance))
-    fmt::print(stderr, "note: no light reaches what view {} of {} shows, so the picture is black\n",
-               view.name, scene.name);
-  const std::size_t broken = brokenPixels(radiance);
-  if (broken == 0) return kExitDone;
-  fmt::print(stderr,
-             "glintmark: {} pixels of the picture are not finite: some value of the scene is too "
-             "large for single precision\n",
-             broken);
-  return kExitCheckFailed;
-}
-
 // "a_0007.png" of "a.png": as many digits as the last number has, four at least.
 std::string numbered(const std::string& output, int frame, int frames) {
   const std::filesystem::path path(output);
@@ -227,7 +202,8 @@ std::string numbered(const std::string& output, int frame, int frames) {
   return (path.parent_path() / name).string();
 }
 
-// A picture for every step of a path; says how much changes from one to the next.
+// A picture for every step of a path; says how much changes from one to the next. Some of them may
+// be empty or black, not all.
 int renderPath(const CommandLine& line, const RenderOptions& options, Device& device,
                const Scene& scene, const View& view, const ShadingOptions& shading,
                const PictureFacts& facts) {
@@ -235,7 +211,7 @@ int renderPath(const CommandLine& line, const RenderOptions& options, Device& de
   viewOnPath(view, path, options.step * (options.frames - 1));  // refuses what cannot be reached
   Progress progress(line.common.quiet);
   double sum = 0, largest = 0;
-  int code = kExitDone;
+  bool some_broken = false, some_right = false;
   Image before;
   for (int frame = 0; frame < options.frames; ++frame) {
     progress.show(frame, options.frames, "frames");
@@ -251,7 +227,10 @@ int renderPath(const CommandLine& line, const RenderOptions& options, Device& de
       renderer.shade();
       radiance = renderer.readRadiance();
     }
-    code = std::max(code, judgePicture(radiance, scene, moved));
+    const PictureFault fault =
+        judgePicture(radiance, scene, moved, showsBackground(options, scene));
+    some_broken |= fault == PictureFault::kNotFinite;
+    some_right |= fault == PictureFault::kNone;
     Image display = toneMap(radiance, {.exposure = options.exposure.value_or(scene.post.exposure)});
     if (frame > 0) {
       const double change = colourError(before, display);
@@ -270,7 +249,7 @@ int renderPath(const CommandLine& line, const RenderOptions& options, Device& de
     fmt::print(", frame-to-frame error {:.4g} on average, {:.4g} at most",
                sum / (options.frames - 1), largest);
   fmt::print("\n");
-  return code;
+  return some_right && !some_broken ? kExitDone : kExitCheckFailed;
 }
 
 // All planes, also those that no kernel of the frame reads.
@@ -298,7 +277,8 @@ int runRender(const CommandLine& line, const RenderOptions& options) {
   ShadingOptions shading{.width_px = size.width_px,
                          .height_px = size.height_px,
                          .lanes = common.lanes,
-                         .glints = !options.no_glints};
+                         .glints = !options.no_glints,
+                         .may_show_nothing = true};
   options.flags.apply(shading);
   if (options.zoom != 0) return runZoom(common, options, shading);
   const Scene scene = openScene(common, options.scene);
@@ -316,9 +296,7 @@ int runRender(const CommandLine& line, const RenderOptions& options) {
     Image radiance = options.displaced
                          ? renderedRelief(line, scene, view, shading, options.truth_spp)
                          : renderedTruth(line, device, scene, view, shading, options.truth_spp);
-    const int code = judgePicture(radiance, scene, view);
-    writeRendered(std::move(radiance), options, scene, view, factsOf(run));
-    return code;
+    return writeJudged(std::move(radiance), options, scene, view, factsOf(run));
   }
   if (!options.trace.empty()) startTrace();
   FrameRenderer renderer(device, scene, view, shading, common.threads);
@@ -332,8 +310,7 @@ int runRender(const CommandLine& line, const RenderOptions& options) {
     radiance = renderer.readRadiance(&read);
   }
   if (!options.trace.empty()) writeTrace(options.trace, run);
-  const int code = judgePicture(radiance, scene, view);
-  writeRendered(std::move(radiance), options, scene, view, factsOf(run));
+  const int code = writeJudged(std::move(radiance), options, scene, view, factsOf(run));
   if (!options.aov_output.empty())
     writePlanes(scene, makeCamera(view, size.width_px, size.height_px), common.threads,
                 options.aov_output, factsOf(run));

@@ -41,7 +41,9 @@ Image zoomStrip(Device& device, const Scene& scene, const View& view, const Shad
   std::vector<std::pair<std::string, Image>> row;
   for (int k = 0; k <= octaves * kPerOctave; ++k) {
     const double zoom = static_cast<double>(k) / kPerOctave;
-    FrameRenderer renderer(device, scene, zoomed(view, zoom), shading, thread_count);
+    ShadingOptions options = shading;
+    options.may_show_nothing = k > 0;  // between meshes, perhaps
+    FrameRenderer renderer(device, scene, zoomed(view, zoom), options, thread_count);
     renderer.prepare();
     renderer.shade();
     row.emplace_back(fmt::format("2^{:g}", zoom),

@@ -1,8 +1,11 @@
 #include "host/frame/frame_pass.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 
+#include "host/core/error.h"
 #include "host/core/float4.h"
 #include "host/core/stopwatch.h"
 #include "host/core/trace.h"
@@ -27,6 +30,7 @@ FramePass::FramePass(const PassKernel& kernel, Device& device, const Scene& scen
                      const ShadingOptions& options, int thread_count,
                      std::shared_ptr<NormalTextures> textures)
     : kernel_(kernel),
+      view_name_(view.name),
       device_(device),
       scene_(scene),
       options_(options),
@@ -179,7 +183,17 @@ FrameTimes FramePass::prepare() {
     makeBuffers(band, times);
     makeLaunches(band);
   }
+  requirePixels();
   return times;
+}
+
+void FramePass::requirePixels() const {
+  if (options_.may_show_nothing) return;
+  if (!std::ranges::all_of(bands_, [](const Band& band) { return band.planes.lists.empty(); }))
+    return;
+  throw Error(fmt::format(
+      "view {} of {} covers no pixel of {}x{}, expected a camera that looks at the scene's meshes",
+      view_name_, scene_.name, camera_.width_px, camera_.height_px));
 }
 
 void FramePass::setNumber(std::string_view name, std::uint32_t value) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -61,7 +62,8 @@ class FramePass {
   FramePass& operator=(const FramePass&) = delete;
 
   /// Rasterizes and uploads, clears results that are summed up, builds what is not built. Returns
-  /// raster and upload times.
+  /// raster and upload times. Throws Error if the view covers no pixel and the options do not allow
+  /// that: there would be nothing to measure.
   FrameTimes prepare();
   /// Gives one of PassKernel::numbers, 0 after prepare(), to the launches to come. Throws Error if
   /// the kernel has none of that name.
@@ -91,7 +93,10 @@ class FramePass {
   ShadeArguments argumentsOf(const Band& band, const PixelList& list, const KernelConfig& config);
   PlaneMask planes() const;
 
+  void requirePixels() const;
+
   PassKernel kernel_;
+  std::string view_name_;
   Device& device_;
   const Scene& scene_;
   ShadingOptions options_;

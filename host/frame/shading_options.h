@@ -29,7 +29,8 @@ struct ShadingOptions {
 #include "host/ocl/switches.inc"
   bool glints = true;  // false: every glint material is shaded as its smooth lobe (the baseline)
   bool count_cells = false;
-  int lobes = 0;  // Gaussians of a mixture, 1 to 8; 0: the material's
+  bool may_show_nothing = false;  // else a view that covers no pixel is refused
+  int lobes = 0;                  // Gaussians of a mixture, 1 to 8; 0: the material's
   MixtureOrder mixture_order = MixtureOrder::kColours;
   int mixture_iterations = 0;  // EM steps of a texel in the fit; 0: the fit's default
   Programs programs = Programs::kPerMaterial;

@@ -80,7 +80,7 @@ TEST(Render, ABlackPictureSaysSo) {
   const ProcessResult result =
       runGlintmark({"render", "screen_plane", "-o", folder / "a.exr", "--size", "32x18", "--set",
                     "light.0.elevation_deg=-50"});
-  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.exit_code, 1) << result.err;
   EXPECT_NE(result.err.find("no light reaches what view steep of screen_plane shows"),
             std::string::npos)
       << result.err;
@@ -89,14 +89,40 @@ TEST(Render, ABlackPictureSaysSo) {
   EXPECT_EQ(lit.err.find("no light reaches"), std::string::npos) << lit.err;
 }
 
+constexpr const char* kAway = "view.0={name=\"steep\", eye=[0, 5, 0], target=[0, 9, 1]}";
+
 TEST(Render, AViewOfNothingSaysSo) {
   const TempFolder folder;
-  const ProcessResult result =
-      runGlintmark({"render", "screen_plane", "-o", folder / "a.exr", "--size", "32x18", "--set",
-                    "view.0={name=\"away\", eye=[0, 5, 0], target=[0, 9, 1]}"});
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_NE(result.err.find("view away of screen_plane covers no pixel"), std::string::npos)
+  const ProcessResult result = runGlintmark(
+      {"render", "screen_plane", "-o", folder / "a.exr", "--size", "32x18", "--set", kAway});
+  EXPECT_EQ(result.exit_code, 1) << result.err;
+  EXPECT_NE(result.err.find("view steep of screen_plane covers no pixel, so the picture is empty"),
+            std::string::npos)
       << result.err;
+  // Behind no mesh there is the sky.
+  const ProcessResult sky =
+      runGlintmark({"render", "hero", "-o", folder / "sky.png", "--size", "32x18", "--set", kAway});
+  EXPECT_EQ(sky.exit_code, 0) << sky.err;
+  EXPECT_NE(sky.err.find("the picture is the environment alone"), std::string::npos) << sky.err;
+}
+
+// Without a pixel there is no time, no error and no cell: no command has figures of it.
+TEST(Render, AViewOfNothingIsNotMeasured) {
+  const TempFolder folder;
+  const std::vector<std::vector<std::string>> commands = {
+      {"profile", "screen_plane"},
+      {"heatmap", "screen_plane", "-o", folder / "a.png"},
+      {"render", "screen_plane", "--zoom", "1", "-o", folder / "a.png"},
+      {"bench", "zk16", "--scene", "screen_plane", "--view", "steep", "-o", folder / "r"}};
+  for (std::vector<std::string> command : commands) {
+    const std::string name = command[0];
+    command.insert(command.end(), {"--size", "32x18", "--quiet", "--set", kAway});
+    const ProcessResult result = runGlintmark(command);
+    EXPECT_NE(result.exit_code, 0) << name << result.out;
+    EXPECT_NE(result.err.find("view steep of screen_plane covers no pixel"), std::string::npos)
+        << name << ": " << result.err;
+    EXPECT_EQ(result.out, "") << name;
+  }
 }
 
 TEST(Render, PngAndPlanes) {

@@ -198,6 +198,9 @@ TEST(FrameRenderer, EmptyFrame) {
   away.up = {0, 0, 1};
   ShadingOptions options = smallOptions();
   options.count_cells = true;
+  FrameRenderer refused(device(), scene, away, options, 2);
+  EXPECT_THROW(refused.prepare(), Error);
+  options.may_show_nothing = true;
   FrameRenderer renderer(device(), scene, away, options, 2);
   renderer.prepare();
   renderer.shade();
