@@ -20,8 +20,9 @@ CountedCells countCells(Device& device, const Scene& scene, const View& view,
   renderer.shade();
   CountedCells counted = {renderer.readCells(), renderer.cellCounts()};
   if (counted.counts.glint_px == 0)
-    throw Error(fmt::format("no pixel of view {} of {} shows glints, so there are no cells to count",
-                            view.name, scene.name));
+    throw Error(
+        fmt::format("no pixel of view {} of {} shows lit glints, so there are no cells to count",
+                    view.name, scene.name));
   return counted;
 }
 

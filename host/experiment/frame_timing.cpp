@@ -38,12 +38,12 @@ std::string kernelOptions(const FrameRenderer& renderer) {
   return fmt::format("{}", fmt::join(options, " | "));
 }
 
-void invalidateIfInsane(std::vector<Record>& records, const Image& radiance) {
-  const std::size_t bad = badValueCount(radiance);
-  if (bad == 0) return;
+void invalidateIfFaulty(std::vector<Record>& records, const Image& radiance) {
+  const std::string fault = radianceFault(radiance);
+  if (fault.empty()) return;
   for (Record& record : records) {
     record.valid = false;
-    record.note = fmt::format("not valid: {} radiance values are negative or not finite", bad);
+    record.note = "not valid: " + fault;
   }
 }
 

@@ -21,8 +21,8 @@ std::unique_ptr<FrameRenderer> preparedFrame(BenchRun& run, const Scene& scene, 
 /// Build options of all kernels of a frame, as records keep them.
 std::string kernelOptions(const FrameRenderer& renderer);
 
-/// Marks all records of a frame as not valid if a radiance is negative or not finite.
-void invalidateIfInsane(std::vector<Record>& records, const Image& radiance);
+/// Marks all records of a frame as not valid if its radiance has a fault, and says which.
+void invalidateIfFaulty(std::vector<Record>& records, const Image& radiance);
 
 /// Shades once; kernel event time [ms]. Throws Interrupted after Ctrl-C.
 double shadeMs(FrameRenderer& renderer);

@@ -96,6 +96,15 @@ bool isSane(const Image& image) {
   return badValueCount(image) == 0;
 }
 
+std::string radianceFault(const Image& radiance) {
+  if (const std::size_t bad = badValueCount(radiance); bad > 0)
+    return fmt::format("{} radiance values are negative or not finite", bad);
+  const auto channels = static_cast<std::size_t>(radiance.channels);
+  for (std::size_t i = 0; i < radiance.pixels.size(); ++i)
+    if (i % channels < 3 && radiance.pixels[i] > 0) return "";
+  return "no light reaches what the view shows";
+}
+
 Image coveredPixels(const Image& image, const Image& coverage) {
   std::vector<float> values;
   const auto channels = static_cast<std::size_t>(image.channels);

@@ -1,6 +1,7 @@
 // Error metrics and what they are taken over, defined once for the whole project.
 #pragma once
 #include <cstddef>
+#include <string>
 
 #include "host/core/image.h"
 
@@ -35,6 +36,10 @@ double changeError(const Image& before, const Image& after, const Image& referen
 /// Values that are negative or not finite, which no radiance may be.
 std::size_t badValueCount(const Image& image);
 bool isSane(const Image& image);
+
+/// Why a frame's radiance (RGB first) is not to be measured: "3 radiance values are negative or not
+/// finite", or it is 0 everywhere, since no light reaches what the view shows. Empty: it may be.
+std::string radianceFault(const Image& radiance);
 
 /// The RGB channels of `image` where `coverage` covers (alpha above 0), in one row; sizes equal.
 Image coveredPixels(const Image& image, const Image& coverage);

@@ -89,6 +89,17 @@ TEST(Render, ABlackPictureSaysSo) {
   EXPECT_EQ(lit.err.find("no light reaches"), std::string::npos) << lit.err;
 }
 
+TEST(Render, WhatNoLightReachesIsNotMeasured) {
+  const TempFolder folder;
+  const ProcessResult result = runGlintmark(
+      {"bench", "zk16", "--quiet", "--scene", "screen_plane", "--view", "steep", "--size", "32x18",
+       "--reps", "1", "-o", folder / "r", "--set", "light.0.elevation_deg=-50"});
+  EXPECT_EQ(result.exit_code, 1) << result.err << result.out;
+  EXPECT_NE((result.out + result.err).find("no light reaches what the view shows"),
+            std::string::npos)
+      << result.out << result.err;
+}
+
 constexpr const char* kAway = "view.0={name=\"steep\", eye=[0, 5, 0], target=[0, 9, 1]}";
 
 TEST(Render, AViewOfNothingSaysSo) {

@@ -66,6 +66,16 @@ TEST(Metrics, BadValuesAreNegativeOrNotFinite) {
   EXPECT_FALSE(isSane(bad));
 }
 
+TEST(Metrics, RadianceThatIsNotToBeMeasuredSaysWhy) {
+  Image radiance(2, 1, 4);
+  radiance.pixels = {0, 0, 0, 1, 0, 0, 0, 1};  // covered, and black
+  EXPECT_EQ(radianceFault(radiance), "no light reaches what the view shows");
+  radiance.pixels[6] = 1e-30f;
+  EXPECT_EQ(radianceFault(radiance), "");
+  radiance.pixels[1] = -1;
+  EXPECT_EQ(radianceFault(radiance), "1 radiance values are negative or not finite");
+}
+
 TEST(Metrics, CoveredPixelsOfAnImageAndOfAnother) {
   Image image(3, 1, 4), errors(3, 1, 3);
   image.pixels = {1, 2, 3, 1, 4, 5, 6, 0, 7, 8, 9, 1};

@@ -123,8 +123,8 @@ const std::vector<GlintFigures>& GlintSweep::judged(const AccuracySetting& setti
 std::string GlintSweep::failureOf(std::size_t index, const AccuracyStage& stage,
                                   const AccuracySetting& setting, const ShadingOptions& options) {
   const Image frame = stage.renderer(options)->readRadiance();
-  if (!isSane(frame) || coveredPixels(frame).pixels.empty())
-    return stage.name() + ": radiance is negative, not finite or missing";
+  if (const std::string fault = radianceFault(frame); !fault.empty())
+    return stage.name() + ": " + fault;
   if (!smooth_means_.contains(index)) {
     ShadingOptions smooth = stage.options();
     smooth.glints = false;

@@ -113,8 +113,8 @@ const SampledSweep::Truth& SampledSweep::keepTruth(std::size_t index, const Accu
   Truth made;
   made.coverage = truth.images.mean;
   made.row = coveredPixels(truth.images.mean);
-  made.sane = std::ranges::all_of(truth.replicates, isSane) && !made.row.pixels.empty();
-  if (made.sane)
+  made.fault = radianceFault(truth.images.mean);
+  if (made.fault.empty())
     made.standard_error =
         errorOfMean(truth.images.mean, truth.replicates, [&](const Image& off, const Image& mean) {
           return principal(settings_.metric, coveredPixels(off, made.coverage),
@@ -138,8 +138,9 @@ AccuracyFigures SampledSweep::figuresOf(const Truth& right, const AccuracyStage&
   const Image frame = image(stage, view, setting);
   AccuracyFigures figures;
   figures.truth_stderr = right.standard_error;
-  if (!right.sane || !isSane(frame)) {
-    figures.failure = stage.name() + ": radiance is negative, not finite or missing";
+  const std::string fault = right.fault.empty() ? radianceFault(frame) : right.fault;
+  if (!fault.empty()) {
+    figures.failure = stage.name() + ": " + fault;
     return figures;
   }
   const Image row = coveredPixels(frame, right.coverage);

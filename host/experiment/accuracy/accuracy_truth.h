@@ -50,7 +50,7 @@ class SampledSweep : public AccuracySweep {
     Image coverage;             // the truth itself
     Image row;                  // linear, covered pixels
     double standard_error = 0;  // in the principal metric
-    bool sane = false;
+    std::string fault;          // empty: it is right
   };
   const Truth& truth(std::size_t index, const AccuracyStage& stage, int shift);
   const Truth& keepTruth(std::size_t index, const AccuracyStage& stage, int shift,

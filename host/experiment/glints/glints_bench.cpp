@@ -118,7 +118,7 @@ std::vector<Record> GlintsMeasurement::measure(const std::string& method, const 
   addTimes(*glints, *smooth, counted);
   addStaticCounts(*glints);
   if (kind.lights == 1) addErrors(glints->configs().front(), kind.stage);
-  invalidateIfInsane(records_, glints->readRadiance());
+  invalidateIfFaulty(records_, glints->readRadiance());
   return records_;
 }
 

@@ -162,7 +162,7 @@ std::vector<Record> ScalingMeasurement::measure(const std::string& case_name) {
     for (double& ratio : ratios) ratio /= value;
     add("efficiency", ratios);
   }
-  invalidateIfInsane(records, radiance);
+  invalidateIfFaulty(records, radiance);
   return records;
 }
 

@@ -110,14 +110,16 @@ Image comparison(const std::vector<std::pair<std::string, Image>>& pictures) {
 // How wrong a picture is, or the mean over several.
 struct Tan05Errors {
   double colour = 0, bias = 0, rel_mse = 0, truth_stderr = 0;
-  bool sane = true;
+  std::string fault = {};
 };
 
 Tan05Errors errorsOf(const Scene& scene, const Image& image, const Truth& truth) {
-  if (!isSane(image) || truth.standard_error >= 1) return {1, 0, 1, truth.standard_error, false};
+  std::string fault = radianceFault(image);
+  if (fault.empty() && truth.standard_error >= 1) fault = "the truth's standard error is 1 or more";
+  if (!fault.empty()) return {1, 0, 1, truth.standard_error, fault};
   const Image row = coveredPixels(image), right = coveredPixels(truth.radiance);
   return {colourError(display(row, scene), display(right, scene)), relativeBias(row, right),
-          relMse(row, right), truth.standard_error, true};
+          relMse(row, right), truth.standard_error};
 }
 
 Tan05Errors meanErrors(const std::vector<Tan05Errors>& errors) {
@@ -126,7 +128,7 @@ Tan05Errors meanErrors(const std::vector<Tan05Errors>& errors) {
     for (const auto member : {&Tan05Errors::colour, &Tan05Errors::bias, &Tan05Errors::rel_mse,
                               &Tan05Errors::truth_stderr})
       mean.*member += one.*member / static_cast<double>(errors.size());
-    mean.sane = mean.sane && one.sane;
+    if (mean.fault.empty()) mean.fault = one.fault;
   }
   return mean;
 }
@@ -141,10 +143,10 @@ void addErrors(BenchRun& run, const std::string& case_name, const Tan05Errors& e
   add("bias", errors.bias);
   add("rel_mse", errors.rel_mse);
   add("truth_stderr", errors.truth_stderr);
-  if (errors.sane) return;
+  if (errors.fault.empty()) return;
   for (Record& bad : records) {
     bad.valid = false;
-    bad.note = "not valid: radiance values are negative or not finite";
+    bad.note = "not valid: " + errors.fault;
   }
 }
 

@@ -86,7 +86,8 @@ Tao21View measureTao21View(BenchRun& run, const Scene& scene, const View& view,
   const ReplicatedTruth truth = truthOf(run, scene, view, small, settings.truth_spp);
   const Image& truth_image = truth.images.mean;
   const Image truth_row = coveredPixels(truth_image);
-  const bool truth_sane = isSane(truth_image) && !truth_row.pixels.empty();
+  const std::string truth_fault = radianceFault(truth_image);
+  const bool truth_sane = truth_fault.empty();
   const double standard_error =
       truth_sane ? errorOfMean(truth_image, truth.replicates,
                                [](const Image& off, const Image& mean) {
@@ -103,12 +104,13 @@ Tao21View measureTao21View(BenchRun& run, const Scene& scene, const View& view,
     const std::string& method = cases[m].method_name;
     const Image image = methodFrame(run, scene, view, small, cases[m])->readRadiance();
     const Image row = coveredPixels(image);
-    const bool sane = isSane(image) && truth_sane;
+    const std::string fault = truth_sane ? radianceFault(image) : truth_fault;
+    const bool sane = fault.empty();
     std::vector<Record>& records = result.records[method];
     const auto add = [&](const char* metric, const Samples& samples, const std::string& note) {
       records.push_back(run.record(tao21Spec(), cases[m].case_name, metric, samples, note));
       records.back().valid = sane;
-      if (!sane) records.back().note = "not valid: radiance is negative, not finite or missing";
+      if (!sane) records.back().note = "not valid: " + fault;
     };
     add("shading_ms", times_ms[m], "kernel events, methods in turn");
     records.back().paper = kTao21FrameMs;

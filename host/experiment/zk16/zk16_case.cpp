@@ -124,12 +124,11 @@ void CaseMeasurement::checkSame(const Image& image, const Image& reference, cons
 }
 
 void CaseMeasurement::checkImages(const Image& glint, const Image& smooth) {
-  const std::size_t bad_values = badValueCount(glint) + badValueCount(smooth);
-  if (bad_values > 0) {
-    result_.failures.push_back(
-        fmt::format("{} radiance values are negative or not finite", bad_values));
-    return;
-  }
+  for (const Image* image : {&glint, &smooth})
+    if (const std::string fault = radianceFault(*image); !fault.empty()) {
+      result_.failures.push_back(fault);
+      return;
+    }
   const double bias = relativeBias(glint, smooth);
   if (!(std::abs(bias) <= kZk16MeanBound)) {
     result_.failures.push_back(
