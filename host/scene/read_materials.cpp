@@ -35,33 +35,33 @@ void readNdf(SceneTable& table, Material& material) {
   material.ggx = ndf == "ggx";
 }
 
+// The model that a key names; the first of all by default.
+template <typename Model, std::size_t kCount>
+Model readModel(SceneTable& table, const char* key, const NamedModel<Model> (&models)[kCount]) {
+  const std::string name = table.text(key, models[0].name);
+  std::string expected;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    if (name == models[i].name) return models[i].model;
+    expected += i == 0 ? "" : i + 1 < kCount ? ", " : " or ";
+    expected += models[i].name;
+  }
+  table.fail(key, fmt::format("is '{}', expected {}", name, expected));
+}
+
 void readCompensation(SceneTable& table, Material& material) {
-  constexpr const char* kNames[] = {"off",  "lobe",        "simulated",
-                                    "mean", "kulla_conty", "fdez_aguera"};
-  const std::string name = table.text("compensation", "off");
-  const auto found = std::ranges::find(kNames, name);
-  if (found == std::end(kNames))
-    table.fail("compensation", fmt::format("is '{}', expected off, lobe, simulated, mean, "
-                                           "kulla_conty or fdez_aguera",
-                                           name));
-  material.compensation = static_cast<Compensation>(found - std::begin(kNames));
+  material.compensation = readModel(table, "compensation", kCompensations);
   const float4& albedo = material.params.surface.albedo;
   if (material.compensation >= Compensation::kKullaConty &&
       std::max({albedo.x, albedo.y, albedo.z}) > 0)
     table.fail("compensation",
-               fmt::format("'{}' is a lobe of its own, of metals: it needs albedo 0", name));
+               fmt::format("'{}' is a lobe of its own, of metals: it needs albedo 0",
+                           table.text("compensation", "")));
   if (material.compensation == Compensation::kSimulated && material.ggx)
     table.fail("compensation", "'simulated' is of Beckmann's facets, 'lobe' of ndf ggx too");
 }
 
 void readScattering(SceneTable& table, Material& material) {
-  constexpr const char* kNames[] = {"lambert", "published", "refit", "eon", "fitted"};
-  const std::string name = table.text("diffuse_model", "lambert");
-  const auto found = std::ranges::find(kNames, name);
-  if (found == std::end(kNames))
-    table.fail("diffuse_model",
-               fmt::format("is '{}', expected lambert, published, refit, eon or fitted", name));
-  material.diffuse_model = static_cast<DiffuseModel>(found - std::begin(kNames));
+  material.diffuse_model = readModel(table, "diffuse_model", kDiffuseModels);
   material.diffuse_roughness = table.number("diffuse_roughness", 0.5, kReflectance);
   material.diffuse_masking = table.number("diffuse_masking", 0, kReflectance);
   const bool has_lobes = material.diffuse_model == DiffuseModel::kPublished ||

@@ -14,6 +14,7 @@
 #include "host/filter/normal_map.h"
 #include "host/scene/area_light.h"
 #include "host/scene/environment.h"
+#include "host/scene/lobe_models.h"
 
 namespace glintmark {
 
@@ -60,17 +61,6 @@ struct NormalMapSource {
   std::shared_ptr<const NormalMap> map;
   int lobes = 4;  // Gaussians per texel where mixtures stand for the map, 1 to 8; docs/accuracy.md
 };
-
-/// Diffuse lobe: Lambert's, or a rough surface that light leaves after several bounces, [PAT18]
-/// with its own coefficients or ours, energy-preserving Oren-Nayar, or a model of ours fitted to
-/// single scattering and to all of it.
-enum class DiffuseModel : int { kLambert, kPublished, kRefit, kEon, kFitted };
-
-/// What a specular lobe gets back of the light that it loses to further bounces: nothing; scaled,
-/// what it lacks itself, so that a white furnace stays white, or of that what the simulated
-/// surfaces lack, or the first in the colour of the mean reflectance; or a lobe beside it, Kulla
-/// and Conty's or Fdez-Aguera's.
-enum class Compensation : int { kOff, kLobe, kSimulated, kMean, kKullaConty, kFdezAguera };
 
 /// [ZK16] Sect. 4.5, ready for the device, with what selects the effects.
 struct Material {

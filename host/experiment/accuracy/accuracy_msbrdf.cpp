@@ -33,15 +33,7 @@ constexpr int kOrders = 6;
 constexpr std::uint32_t kFirstSimulationSeed = 1001, kTruthSimulations = 8, kTruthRays = 2;
 constexpr std::uint32_t kRivalSeed = 7;
 
-struct Model {
-  const char* name;
-  DiffuseModel model;
-};
-constexpr Model kModels[] = {{"lambert", DiffuseModel::kLambert},
-                             {"published", DiffuseModel::kPublished},
-                             {"refit", DiffuseModel::kRefit},
-                             {"eon", DiffuseModel::kEon},
-                             {"fitted", DiffuseModel::kFitted}};
+using Model = NamedModel<DiffuseModel>;
 constexpr DiffuseModel kDefaultModel = DiffuseModel::kFitted;  // of the scenes
 
 struct RayCount {
@@ -156,7 +148,7 @@ std::string MsbrdfSweep::errorNote() const {
 
 std::vector<std::string> MsbrdfSweep::cases() const {
   std::vector<std::string> cases;
-  for (const Model& model : kModels) cases.push_back(modelCase(model));
+  for (const Model& model : kDiffuseModels) cases.push_back(modelCase(model));
   for (const RayCount& count : kRayCounts)
     if (count.rays <= run_.options().rays) cases.push_back(raysCase(count));
   return cases;
@@ -274,7 +266,7 @@ std::vector<Record> MsbrdfSweep::measureRays(const std::string& case_name, std::
 }
 
 std::vector<Record> MsbrdfSweep::measure(const std::string& case_name) {
-  for (const Model& model : kModels)
+  for (const Model& model : kDiffuseModels)
     if (case_name == modelCase(model)) return measureModel(case_name, model);
   for (const RayCount& count : kRayCounts)
     if (case_name == raysCase(count)) return measureRays(case_name, count.rays);

@@ -19,13 +19,6 @@ constexpr Conductor kConductors[] = {
     {"schlick", {1, 1, 1}, {0, 0, 0}, glm::dvec3(0.95, 0.64, 0.54)},
     {"tinted", {1, 1, 1}, {0, 0, 0}, glm::dvec3(0.9, 0.5, 0.2), 0.5}};
 
-constexpr CompensationWay kCompensationWays[] = {{"off", Compensation::kOff},
-                                                 {"lobe", Compensation::kLobe},
-                                                 {"simulated", Compensation::kSimulated},
-                                                 {"mean", Compensation::kMean},
-                                                 {"kulla_conty", Compensation::kKullaConty},
-                                                 {"fdez_aguera", Compensation::kFdezAguera}};
-
 MetalWay metalWay(Compensation compensation) {
   switch (compensation) {
     case Compensation::kOff:
@@ -58,10 +51,6 @@ double Conductor::reflectance(int channel) const {
 
 std::span<const Conductor> conductors() {
   return kConductors;
-}
-
-std::span<const CompensationWay> compensationWays() {
-  return kCompensationWays;
 }
 
 SimulationSettings metalSettings(const Conductor& metal, int channel, SurfaceModel model,

@@ -27,13 +27,6 @@ struct Conductor {
 /// reflectance dips.
 std::span<const Conductor> conductors();
 
-/// One of the material key `compensation`.
-struct CompensationWay {
-  const char* name;
-  Compensation compensation;
-};
-std::span<const CompensationWay> compensationWays();
-
 /// Of light that comes from one direction, and by reciprocity of what an eye there sees.
 SimulationSettings metalSettings(const Conductor& metal, int channel, SurfaceModel model,
                                  double alpha, double incidence_deg, std::uint64_t rays);

@@ -54,17 +54,17 @@ std::vector<Record> measureConductor(BenchRun& run, const std::string& name) {
     const LobeData data = makeLobeData(simulation, 0);
     const double f0 = metal.reflectance(channel);
     albedos.push_back(data.share);
-    for (const CompensationWay& way : compensationWays()) {
-      const double albedo = models.albedo(way.compensation, f0, data.mu_in);
+    for (const auto& way : kCompensations) {
+      const double albedo = models.albedo(way.model, f0, data.mu_in);
       albedo_errors[way.name].push_back(albedo / data.share - 1);
-      const double lobe = models.lobeError(way.compensation, f0, data);
+      const double lobe = models.lobeError(way.model, f0, data);
       lobe_squares[way.name] += lobe * lobe / kChannels;
     }
   }
   MsbrdfCase result(run, name);
   result.add("albedo_simulated", albedos, valid,
              valid ? "red, green and blue" : "not valid: the simulation lost or gave up rays");
-  for (const CompensationWay& way : compensationWays()) {
+  for (const auto& way : kCompensations) {
     result.add(fmt::format("albedo_error_{}", way.name), albedo_errors[way.name], valid,
                "albedo over the simulated one - 1, red, green and blue");
     result.add(fmt::format("lobe_error_{}", way.name), {std::sqrt(lobe_squares[way.name])}, valid,

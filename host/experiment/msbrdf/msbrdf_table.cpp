@@ -204,13 +204,13 @@ OverIncidences overIncidences(std::span<const Record> records, const CaseName& o
 std::string conductorSection(std::span<const Record> records, const std::string& error,
                              bool worst) {
   std::vector<std::string> header = {std::string(kConductorKind) + "/"};
-  for (const CompensationWay& way : compensationWays()) header.emplace_back(way.name);
+  for (const auto& way : kCompensations) header.emplace_back(way.name);
   TextTable table(header);
   for (const CaseName& name : casesOf(records, kConductorKind)) {
     if (name.number(kThetaKnob) != kConductorThetas_deg[0]) continue;
     std::vector<std::string> row = {
         fmt::format("{}/{}/alpha={}", name.word(1), name.word(2), *name.value(kAlphaKnob))};
-    for (const CompensationWay& way : compensationWays()) {
+    for (const auto& way : kCompensations) {
       const OverIncidences all =
           overIncidences(records, name, fmt::format("{}_{}", error, way.name));
       const double value = worst ? all.worst : all.mean;
