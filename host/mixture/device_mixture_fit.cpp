@@ -321,7 +321,7 @@ class DeviceMixtureFit {
 };
 
 // Whatever the normals are, lobes share all of them out. Compilers that lose some of a kernel's
-// values are seen here: rusticl's of Mesa 25 does.
+// values are seen here: rusticl's of Mesa 25 did, of structs in loops.
 void requireWholeTexels(const MipTexels& moments, const std::string& device) {
   constexpr float kSlack = 1e-3f;
   for (std::size_t t = 0; t < moments.texelCount(); ++t) {

@@ -50,6 +50,16 @@ std::string findMpirun() {
   return "";
 }
 
+// What mpirun asks of its surroundings: that root is meant, and a home, which users of containers
+// may lack.
+std::vector<std::string> mpirunEnvironment() {
+  std::vector<std::string> entries = {"OMPI_ALLOW_RUN_AS_ROOT=1",
+                                      "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"};
+  if (std::getenv("HOME") == nullptr)
+    entries.push_back("HOME=" + std::filesystem::temp_directory_path().string());
+  return entries;
+}
+
 }  // namespace
 
 Process::Process(const std::vector<std::string>& arguments,
@@ -62,9 +72,7 @@ Process Process::byRanks(int ranks, const std::vector<std::string>& arguments,
   const std::vector<std::string> words = behind(
       {mpirun, "--oversubscribe", "--bind-to", "none", "-n", std::to_string(ranks), kProgram},
       arguments);
-  return Process(
-      mpirun.c_str(), pointersTo(words),
-      behind({"OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"}, environment), 0);
+  return Process(mpirun.c_str(), pointersTo(words), behind(mpirunEnvironment(), environment), 0);
 }
 
 Process::Process(const char* program, std::vector<char*> argv,

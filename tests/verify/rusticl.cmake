@@ -1,6 +1,7 @@
-# Runs the checks of PROGRAM that ONLY matches on Mesa's rusticl, on llvmpipe and alone. Says
-# "skipped: …" where the system has none.
-#   cmake -D PROGRAM=glintmark -D ONLY=regex -D FOLDER=scratch [-D ICDS=files] -P rusticl.cmake
+# Runs the checks of PROGRAM that ONLY matches on Mesa's rusticl, on llvmpipe and alone, and from Mesa 25
+# on those that ONLY_FROM_MESA_25 matches. Says "skipped: …" where the system has none.
+#   cmake -D PROGRAM=glintmark -D ONLY=regex -D ONLY_FROM_MESA_25=regex -D FOLDER=scratch
+#         [-D ICDS=files] -P rusticl.cmake
 if(NOT ICDS)
   file(GLOB ICDS /etc/OpenCL/vendors/*rusticl*.icd)
 endif()
@@ -22,6 +23,9 @@ if(exit_code EQUAL 3)
 endif()
 if(NOT exit_code EQUAL 0)
   message(FATAL_ERROR "info ended with exit code ${exit_code}")
+endif()
+if(output MATCHES "driver +([0-9]+)\\." AND CMAKE_MATCH_1 GREATER_EQUAL 25)
+  set(ONLY "(${ONLY})|(${ONLY_FROM_MESA_25})")
 endif()
 execute_process(COMMAND ${PROGRAM} verify --timeout 300 --only ${ONLY} RESULT_VARIABLE exit_code)
 if(NOT exit_code EQUAL 0)

@@ -1,5 +1,5 @@
 # Writes OUTPUT, a header with the version of the source in the folder SOURCE, if it changed: that of
-# its git checkout, else the one that `git archive` has left in archive_version.txt.
+# its git checkout, else the one that `git archive` or `package_source` has left in archive_version.txt.
 file(REAL_PATH ${SOURCE} source)
 # Checkouts of another user, as containers have them, are read all the same; a repository around the
 # folder is not the folder's.
@@ -8,7 +8,7 @@ execute_process(COMMAND ${git} rev-parse --show-toplevel
                 OUTPUT_VARIABLE top OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
 set(version unknown)
 file(STRINGS ${CMAKE_CURRENT_LIST_DIR}/archive_version.txt archived)
-if(archived MATCHES "^[0-9a-f]+$")
+if(archived MATCHES "^[0-9a-f]+(-dirty)?$")
   set(version ${archived})
 endif()
 if(top STREQUAL source)
