@@ -30,6 +30,13 @@ bool canBeRound(const KernelConfig& config, const Material& material) {
   return config.ltc && alpha.x != alpha.y && !is_mapped;
 }
 
+// Has it one that a mixture of normals makes round unasked?
+bool becomesRound(const KernelConfig& config, const Material& material) {
+  const float2 alpha = material.params.surface.alpha_g;
+  return config.ltc && config.normal_map && config.ltc_method == LtcMethod::kMixture &&
+         !config.round_lobes && alpha.x != alpha.y;
+}
+
 }  // namespace
 
 void ShadingFlags::add(Command& command, const std::string& name, std::string& value,
@@ -113,6 +120,10 @@ std::vector<std::string> ShadingFlags::idle(const Scene& scene, const ShadingOpt
     if (options.geometric_aa != GeometricAa::kNone && configs[i].geometric_aa == GeometricAa::kNone)
       notes.push_back(fmt::format("--geometric-aa does nothing to material {}, which {}", material,
                                   uncurved(configs[i])));
+    if (becomesRound(configs[i], scene.materials[i]))
+      notes.push_back(fmt::format(
+          "--ltc-method mixture has no stretched lobes: area lights see material {} round",
+          material));
     if (options.light_cut != LightCut::kAll && configs[i].light_cone && configs[i].normal_map)
       notes.push_back(fmt::format(
           "--light-cut does nothing to material {}, whose normal map sees each cone", material));

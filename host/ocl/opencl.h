@@ -54,6 +54,7 @@ struct Buffer::Impl {
   ~Impl() {
     if (ledger) ledger->remove(purpose, bytes);
   }
+  std::shared_ptr<void> memory{};  // what `buffer` uses in place, where that is ours
   cl::Buffer buffer;
   cl::CommandQueue queue;
   std::shared_ptr<DeviceClock> clock{};

@@ -15,8 +15,9 @@
 namespace glintmark {
 namespace {
 
-Finding kernelIsTheLobe(const CheckContext& context) {
-  const AreaLight light = specularQuad();
+// Against the lobe in double precision. `cut_twice`: how many of the lights, at least, must shine
+// and be cut at the surface's horizon and at the cosine's own.
+Finding sameLobe(const CheckContext& context, const AreaLight& light, int cut_twice) {
   const std::vector<SpecularCase> cases = specularCases(1024, light, 0.01);
   const std::vector<glm::vec3> values = shadeSpecular(context.bench, light, cases, context.lanes);
   Finding finding(kSameLobe);
@@ -28,8 +29,23 @@ Finding kernelIsTheLobe(const CheckContext& context) {
     const double exact =
         clipped.empty() ? 0 : cell.scale * std::abs(reference::ltcOverPolygon(inverse, clipped));
     finding.add(std::abs(values[i].x - exact));
+    const auto below = [](const glm::dvec3& v) { return v.z < 0; };
+    const auto below_cosine = [&](const glm::dvec3& v) { return (inverse * v).z < -1e-3; };
+    cut_twice -= exact > 0.01 && std::ranges::any_of(cases[i].local, below) &&
+                 std::ranges::any_of(clipped, below_cosine);
   }
+  finding.require(cut_twice <= 0, "too few lights are cut at both horizons");
   return finding;
+}
+
+Finding kernelIsTheLobe(const CheckContext& context) {
+  return sameLobe(context, specularQuad(), 0);
+}
+
+Finding twoHorizons(const CheckContext& context) {
+  return sameLobe(context,
+                  polygonLight({{-5, -4, 0}, {4, -5, 0}, {6, 3, 0}, {0, 6, 0}, {-5, 2, 0}}, true),
+                  100);
 }
 
 Finding hemisphereAlbedo(const CheckContext& context) {
@@ -158,6 +174,7 @@ Finding meanNormals(const CheckContext& context) {
 std::vector<Check> areaLightChecks() {
   std::vector<Check> checks = {
       {"area_light/kernel_is_the_lobe", "absolute error", kernelIsTheLobe},
+      {"area_light/two_horizons", "absolute error", twoHorizons},
       {"area_light/hemisphere_albedo", "absolute error", hemisphereAlbedo},
       {"area_light/mean_normal_0_to_1", "error of alpha", meanNormals},
       {"area_light/same_bits", "points that differ from one lane's", samePoints}};

@@ -23,9 +23,10 @@ WIDE_KERNEL void probeAreaGlint(global const float* points, constant const Mater
   const GlintView seen_by = glintView(frame, basis, view, material);
   const LtcLobe lobe = lookUpLtc(table, table_size, (vfloat)(seen_by.alpha), view.z, seen_by.sine);
   SeenLight seen = seeLight(light, frame, position);
-  const SlopeRegion region = slopeRegion(&seen.outline, &seen.rest, &seen_by);
-  transformLight(lobe, &seen);
-  const LobeShare share = lobeShare(&seen, litSide(light, position));
+  const SlopeRegion region = slopeRegion(&seen.outline, &seen_by);
+  vfloat heights[LIGHT_VERTICES];
+  transformLight(lobe, &seen, heights);
+  const LobeShare share = cosineShare(&seen, heights, litSide(light, position));
   const LightLobe result =
       areaLightLobe(&region, lobe, share.factor, lobe.scale * share.value, &seen_by, material);
   storeFloat(result.probability, out, i);

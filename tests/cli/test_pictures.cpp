@@ -270,6 +270,11 @@ TEST(Render, SaysWhichOptionsDoNothing) {
   expect_note(notes("area_plane", {"--round-lobes"}),
               "--round-lobes does nothing in scene area_plane, where area lights see no stretched");
   EXPECT_EQ(notes("area_brushed", {"--round-lobes"}).find("does nothing"), std::string::npos);
+  const std::vector<std::string> stretched_mixture = {
+      "--ltc-method", "mixture", "--set", "material.cloth.global_roughness=[0.03, 0.2]"};
+  expect_note(notes("area_cloth", stretched_mixture),
+              "--ltc-method mixture has no stretched lobes: area lights see material cloth round");
+  EXPECT_EQ(notes("area_cloth", {"--ltc-method", "mixture"}).find("note:"), std::string::npos);
   expect_note(notes("snow", {"--no-glints", "--method", "zk16"}),
               "--method does nothing in scene snow, since --no-glints leaves none");
   expect_note(notes("disk", {"--truth", "4", "--normal-method", "lean"}),

@@ -54,6 +54,7 @@ std::unique_ptr<FrameRenderer> methodFrame(BenchRun& run, const Tan05Scene& scen
   options.normal_method = method.method;
   options.mixture_order = method.order;
   options.peaks = method.peaks;
+  if (method.lobes > 0) options.lobes = method.lobes;
   if (method.probes_across > 0) options.probes_across = method.probes_across;
   return preparedFrame(run, scene.scene, view, options, scene.textures);
 }
@@ -160,6 +161,7 @@ std::vector<double> inverse(std::vector<double> samples_ms) {
 const std::vector<Tan05Method>& tan05Methods() {
   static const std::vector<Tan05Method> methods = {
       {"gmm", NormalMethod::kGmm},
+      {.name = "lobes_8", .method = NormalMethod::kGmm, .lobes = 8},
       {.name = "one_row", .method = NormalMethod::kGmm, .probes_across = 1},
       {"unaligned", NormalMethod::kGmm, MixtureOrder::kIndependent},
       {"vmf_lobes", NormalMethod::kVmfLobes},

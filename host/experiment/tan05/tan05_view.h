@@ -18,10 +18,12 @@ struct Tan05Method {
   MixtureOrder order = MixtureOrder::kColours;
   int peaks = 7;
   int probes_across = 0;  // 0: the default
+  int lobes = 0;          // 0: the material's
 };
 /// In the order in which they are measured and printed; "one_row" are mixtures by one row of
 /// probes, a trilinear lookup where a footprint is round, as the paper's; "unaligned" are mixtures
-/// fitted without regard to their neighbours, [TAN05] Figs. 5 and 6; "peaks_4" has four peaks.
+/// fitted without regard to their neighbours, [TAN05] Figs. 5 and 6; "peaks_4" has four peaks,
+/// "lobes_8" eight lobes.
 const std::vector<Tan05Method>& tan05Methods();
 
 struct Tan05Settings {

@@ -75,11 +75,20 @@ MipTexels coarserLevels(const MipTexels& chain) {
   return rest;
 }
 
+// Narrow lobes under area lights show what mixing lobes of one index over texels widens. One step a
+// pass and more passes, in each of which a texel sees its neighbours anew, keep them closer
+// together than many steps of few passes do (docs/accuracy.md).
+constexpr int kAreaPasses = 4, kAreaIterations = 1;
+
 // Mixtures of the surface between the map's texels at the finest level too, where AREA_MIXTURE
-// programs want it.
-NormalMixtures interpolatedMixtures(const NormalMap& map, MixtureOptions options,
+// programs want it; `iterations` 0: kAreaIterations.
+NormalMixtures interpolatedMixtures(const NormalMap& map, MixtureOptions options, int iterations,
                                     const DiskCache& cache) {
   options.surface = MixtureSurface::kTexels;
+  options.passes = kAreaPasses;
+  if (iterations == 0) options.max_iterations = kAreaIterations;
+  // Several normals stand for one texel of the map.
+  options.prior_weight *= static_cast<float>(kSurfaceSamples * kSurfaceSamples);
   NormalMixtures mixtures =
       fittedMixtures(interpolatedNormals(map, kSurfaceSamples), options, cache);
   mixtures.moments = coarserLevels(mixtures.moments);
@@ -90,7 +99,7 @@ NormalTexture uploadMixtures(Device& device, const NormalMap& map, int lobes, bo
                              MixtureOrder order, int iterations, bool for_area_lights) {
   const MixtureOptions options = mixtureOptions(lobes, order, iterations);
   const DiskCache cache = DiskCache::fromEnvironment();
-  NormalMixtures mixtures = for_area_lights ? interpolatedMixtures(map, options, cache)
+  NormalMixtures mixtures = for_area_lights ? interpolatedMixtures(map, options, iterations, cache)
                                             : fittedMixtures(map, options, cache);
   if (!half) return uploadTexture(device, std::move(mixtures.moments));
   return uploadTexture(device, mixtures.moments.layout, packHalfMixtures(mixtures),
