@@ -76,16 +76,16 @@ MipTexels coarserLevels(const MipTexels& chain) {
 }
 
 // Narrow lobes under area lights show what mixing lobes of one index over texels widens. One step a
-// pass and more passes, in each of which a texel sees its neighbours anew, keep them closer
-// together than many steps of few passes do (docs/accuracy.md).
-constexpr int kAreaPasses = 4, kAreaIterations = 1;
+// sweep and more sweeps, in each of which a texel sees its neighbours anew, keep them closer
+// together than many steps of few sweeps do (docs/accuracy.md).
+constexpr int kAreaSweeps = 2, kAreaIterations = 1;
 
 // Mixtures of the surface between the map's texels at the finest level too, where AREA_MIXTURE
 // programs want it; `iterations` 0: kAreaIterations.
 NormalMixtures interpolatedMixtures(const NormalMap& map, MixtureOptions options, int iterations,
                                     const DiskCache& cache) {
   options.surface = MixtureSurface::kTexels;
-  options.passes = kAreaPasses;
+  options.sweeps = kAreaSweeps;
   if (iterations == 0) options.max_iterations = kAreaIterations;
   // Several normals stand for one texel of the map.
   options.prior_weight *= static_cast<float>(kSurfaceSamples * kSurfaceSamples);
