@@ -207,7 +207,9 @@ int judgePicture(const Image& radiance, const Scene& scene, const View& view) {
     fmt::print(stderr, "note: view {} of {} covers no pixel, so the picture is empty\n", view.name,
                scene.name);
   else if (isBlack(radiance))
-    fmt::print(stderr, "note: no light reaches what view {} of {} shows, so the picture is black\n",
+    fmt::print(stderr,
+               "note: nothing that view {} of {} shows reflects light to it, so the picture is "
+               "black\n",
                view.name, scene.name);
   const std::size_t broken = brokenPixels(radiance);
   if (broken == 0) return kExitDone;
