@@ -309,7 +309,7 @@ TEST(Gltf, WhatIsWrongIsSaid) {
 TEST(Gltf, BracketsInBracketsAreRefused) {
   const TemporaryFolder folder;
   const std::string deep = std::string(1000000, '[') + std::string(1000000, ']');
-  for (const std::string& place : {R"("nodes":[{"mesh":)", R"("scenes":[{"nodes":)"}) {
+  for (const std::string place : {R"("nodes":[{"mesh":)", R"("scenes":[{"nodes":)"}) {
     const std::string file =
         folder.write("deep.gltf", R"({"asset":{"version":"2.0"},)" + place + deep + "}]}");
     expectMessage(errorOf([&] { importMesh(file); }), {"deep.gltf", "more brackets in brackets"});
