@@ -41,8 +41,10 @@ PictureFault judgePicture(const Image& radiance, const Scene& scene, const View&
     return channels[0] != 0 || channels[1] != 0 || channels[2] != 0;
   };
   if (countPixels(radiance, is_lit) > 0) return PictureFault::kNone;
-  fmt::print(stderr, "note: no light reaches what view {} of {} shows, so the picture is black\n",
-             view.name, scene.name);
+  fmt::print(
+      stderr,
+      "note: nothing that view {} of {} shows reflects light to it, so the picture is black\n",
+      view.name, scene.name);
   return PictureFault::kBlack;
 }
 

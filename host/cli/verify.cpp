@@ -14,6 +14,7 @@
 #include "host/core/progress.h"
 #include "host/core/stopwatch.h"
 #include "host/experiment/interrupt.h"
+#include "host/experiment/run_inputs.h"
 #include "host/harness/kernel_bench.h"
 #include "host/report/record/records.h"
 #include "host/report/record/text_table.h"
@@ -97,6 +98,7 @@ class Verifier {
     });
     found_.run = parseHeaderLine(
         child_->awaitDevice(options_.timeout_s, InterruptGuard::interrupted), "the child's device");
+    found_.run.inputs = inputs_;
   }
 
   void runOne(std::size_t i) {
@@ -122,6 +124,7 @@ class Verifier {
   const CommandLine& line_;
   const VerifyOptions& options_;
   const std::vector<Check> checks_;
+  const std::string inputs_ = hashInputs(line_.common, {});
   Progress progress_{line_.common.quiet};
   std::unique_ptr<CheckProcess> child_;
   VerificationLog log_;

@@ -30,6 +30,8 @@ namespace {
 // Bytes of a target's name in that of its temporary file: names have 255 at most.
 constexpr std::size_t kMostNameBytes = 200;
 
+constexpr std::size_t kRandomDigits = 16;
+
 // ".NAME.RANDOM.PID.tmp".
 std::string tempName(const std::string& target) {
   static std::random_device device;
@@ -39,15 +41,18 @@ std::string tempName(const std::string& target) {
   return fmt::format(".{}.{:016x}.{}.tmp", target.substr(0, kMostNameBytes), random, getpid());
 }
 
-// The process in the name of a temporary file, or 0.
+// The process in the name of a temporary file, or 0: those of other programs are theirs.
 pid_t ownerOf(const std::string& name) {
   constexpr std::string_view kEnd = ".tmp";
   if (!name.starts_with('.') || !name.ends_with(kEnd)) return 0;
   const std::size_t stop = name.size() - kEnd.size();
   const std::size_t dot = name.rfind('.', stop - 1);
+  if (dot < kRandomDigits + 2 || name[dot - kRandomDigits - 1] != '.') return 0;
+  const std::string_view random = std::string_view(name).substr(dot - kRandomDigits, kRandomDigits);
+  if (random.find_first_not_of("0123456789abcdef") != std::string_view::npos) return 0;
   pid_t owner = 0;
   const auto [end, error] = std::from_chars(name.data() + dot + 1, name.data() + stop, owner);
-  return dot > 0 && error == std::errc() && end == name.data() + stop ? owner : 0;
+  return error == std::errc() && end == name.data() + stop ? owner : 0;
 }
 
 // Is a file held by its writer, perhaps on another machine or in another container?

@@ -23,12 +23,13 @@ std::chrono::milliseconds patience() {
 }
 
 volatile std::sig_atomic_t signal_seen = 0, one_of_many = 0, continue_seen = 0;
+volatile std::sig_atomic_t noted[std::size(kEndRequests)] = {};
 
 void noteSignal(int signal) {
   signal_seen = signal;
   if (one_of_many != 0) return;
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
+  for (std::size_t i = 0; i < std::size(kEndRequests); ++i)
+    if (noted[i] != 0) std::signal(kEndRequests[i], SIG_DFL);
 }
 
 void noteContinue(int) {
@@ -50,15 +51,18 @@ InterruptGuard::InterruptGuard() {
   signal_seen = 0;
   one_of_many = allRanks().size() > 1;
   whileWaiting(stopWaiting);
-  previous_interrupt_ = std::signal(SIGINT, noteSignal);
-  previous_terminate_ = std::signal(SIGTERM, noteSignal);
+  for (std::size_t i = 0; i < std::size(kEndRequests); ++i) {
+    previous_[i] = std::signal(kEndRequests[i], noteSignal);
+    noted[i] = previous_[i] != SIG_IGN;
+    if (noted[i] == 0) std::signal(kEndRequests[i], SIG_IGN);
+  }
   if (one_of_many != 0) previous_continue_ = std::signal(SIGCONT, noteContinue);
 }
 
 InterruptGuard::~InterruptGuard() {
   whileWaiting(nullptr);
-  std::signal(SIGINT, previous_interrupt_);
-  std::signal(SIGTERM, previous_terminate_);
+  for (std::size_t i = 0; i < std::size(kEndRequests); ++i)
+    std::signal(kEndRequests[i], previous_[i]);
   if (one_of_many != 0) std::signal(SIGCONT, previous_continue_);
 }
 

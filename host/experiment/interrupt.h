@@ -1,8 +1,13 @@
 // Ctrl-C, or a request to end, during long measurements.
 #pragma once
+#include <array>
+#include <csignal>
 #include <stdexcept>
 
 namespace glintmark {
+
+/// Ctrl-C, a request of the system, and the end of the terminal.
+inline constexpr int kEndRequests[] = {SIGINT, SIGTERM, SIGHUP};
 
 /// The user pressed Ctrl-C, or the system asked to end; the message says what is kept.
 class Interrupted : public std::runtime_error {
@@ -16,9 +21,10 @@ class RankSilent : public Interrupted {
   using Interrupted::Interrupted;
 };
 
-/// While it lives, the first SIGINT or SIGTERM only sets a flag; a second one ends the program at
-/// once, unless it is one of several ranks: their launcher kills those that take too long. A rank
-/// that waits for others after a signal, which may never come, throws RankSilent after a while.
+/// While it lives, the first of kEndRequests only sets a flag; a second one ends the program at
+/// once, unless it is one of several ranks: their launcher kills those that take too long. What was
+/// ignored before, as nohup has it, stays ignored. A rank that waits for others after a signal,
+/// which may never come, throws RankSilent after a while.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -35,8 +41,7 @@ class InterruptGuard {
   static int exitCode();
 
  private:
-  void (*previous_interrupt_)(int);
-  void (*previous_terminate_)(int);
+  std::array<void (*)(int), std::size(kEndRequests)> previous_{};
   void (*previous_continue_)(int) = nullptr;
 };
 

@@ -13,6 +13,7 @@
 
 #include "host/core/error.h"
 #include "host/core/process_end.h"
+#include "host/experiment/interrupt.h"
 
 namespace glintmark {
 namespace {
@@ -32,8 +33,18 @@ void handOnSignals(bool to_another_group) {
   action.sa_sigaction = handOn;
   action.sa_flags = SA_SIGINFO;
   sigemptyset(&action.sa_mask);
-  for (const int number : {SIGINT, SIGTERM}) sigaction(number, &action, nullptr);
+  for (const int number : kEndRequests) {
+    struct sigaction before = {};
+    sigaction(number, nullptr, &before);
+    if (before.sa_handler != SIG_IGN) sigaction(number, &action, nullptr);
+  }
   if (to_another_group) sigaction(SIGCONT, &action, nullptr);
+}
+
+// What was ignored, as nohup has it, stays so.
+void endByDefault() {
+  for (const int number : kEndRequests)
+    if (signal(number, SIG_DFL) == SIG_IGN) signal(number, SIG_IGN);
 }
 
 // The signals wait meanwhile, so that none is lost before the child is known.
@@ -42,7 +53,7 @@ class HeldSignals {
   HeldSignals() {
     sigset_t held;
     sigemptyset(&held);
-    for (const int number : {SIGINT, SIGTERM, SIGCONT}) sigaddset(&held, number);
+    for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGCONT}) sigaddset(&held, number);
     sigprocmask(SIG_BLOCK, &held, &before_);
   }
   ~HeldSignals() { sigprocmask(SIG_SETMASK, &before_, nullptr); }
@@ -64,7 +75,7 @@ pid_t startChild(bool own_group) {
     handOnSignals(own_group);
   } else if (child == 0) {
     if (own_group) setpgid(0, 0);
-    for (const int number : {SIGINT, SIGTERM}) signal(number, SIG_DFL);
+    endByDefault();
     dieWithParent(parent, kExitCheckFailed);
   }
   return child;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/core/error.h"
+#include "host/core/json_depth.h"
 #include "host/fit/data_folder.h"
 #include "host/fit/multiscatter_types.h"
 
@@ -67,7 +68,9 @@ MultiscatterData readMultiscatterData(const std::filesystem::path& path) {
   std::ifstream file(path);
   MultiscatterData data;
   try {
-    const nlohmann::json json = nlohmann::json::parse(file);
+    const std::string text(std::istreambuf_iterator<char>(file), {});
+    checkJsonDepth(text, path.string());
+    const nlohmann::json json = nlohmann::json::parse(text);
     if (json.at("schema") != kSchema)
       throw Error(fmt::format("{} is of another schema than {}", path.string(), kSchema));
     json.at("source").get_to(data.source);

@@ -102,7 +102,7 @@ std::string radianceFault(const Image& radiance) {
   const auto channels = static_cast<std::size_t>(radiance.channels);
   for (std::size_t i = 0; i < radiance.pixels.size(); ++i)
     if (i % channels < 3 && radiance.pixels[i] > 0) return "";
-  return "no light reaches what the view shows";
+  return "nothing that the view shows reflects light to it";
 }
 
 Image coveredPixels(const Image& image, const Image& coverage) {

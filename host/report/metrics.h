@@ -38,7 +38,7 @@ std::size_t badValueCount(const Image& image);
 bool isSane(const Image& image);
 
 /// Why a frame's radiance (RGB first) is not to be measured: "3 radiance values are negative or not
-/// finite", or it is 0 everywhere, since no light reaches what the view shows. Empty: it may be.
+/// finite", or it is 0 everywhere. Empty: it may be.
 std::string radianceFault(const Image& radiance);
 
 /// The RGB channels of `image` where `coverage` covers (alpha above 0), in one row; sizes equal.

@@ -14,6 +14,8 @@ namespace {
 
 constexpr int kSkyWidth_px = 512;
 constexpr int kSkyHeight_px = 256;
+// Each pixel's light is taken to come from its middle, so that it must not be wide.
+constexpr int kLeastCutWidth_px = 64, kLeastCutHeight_px = 32;
 // Of the largest value: what ringing and fitted codes leave below 0.
 constexpr float kTinyShare = 0.01f;
 
@@ -127,6 +129,17 @@ void checkMap(const Image& map) {
   }
 }
 
+/// The same map in finer pixels, where its own are large parts of the sky.
+Image refined(const Image& map) {
+  const int across = (kLeastCutWidth_px + map.width - 1) / map.width;
+  const int down = (kLeastCutHeight_px + map.height - 1) / map.height;
+  Image fine(map.width * across, map.height * down, map.channels);
+  for (int y = 0; y < fine.height; ++y)
+    for (int x = 0; x < fine.width; ++x)
+      std::ranges::copy(map.at(x / across, y / down), fine.at(x, y).begin());
+  return fine;
+}
+
 ConeLight toCone(const Light& light) {
   const double length = glm::length(light.towards);
   const glm::dvec3 axis = length > 0 ? light.towards / length : glm::dvec3(0, 1, 0);
@@ -158,8 +171,11 @@ std::string clampTinyNegatives(Image& map) {
                      least);
 }
 
-std::vector<ConeLight> cutEnvironment(const Image& map, const EnvironmentCut& cut) {
-  checkMap(map);
+std::vector<ConeLight> cutEnvironment(const Image& given, const EnvironmentCut& cut) {
+  checkMap(given);
+  const bool is_coarse = given.width < kLeastCutWidth_px || given.height < kLeastCutHeight_px;
+  const Image fine = is_coarse ? refined(given) : Image();
+  const Image& map = is_coarse ? fine : given;
   const LightMap light_map(map, cut);
   std::vector<Region> regions = {{0, map.width, 0, map.height}};
   std::vector<Cut> cuts = {examine(light_map, regions[0])};

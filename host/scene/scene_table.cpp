@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "host/core/error.h"
@@ -73,6 +74,8 @@ double SceneTable::checkedNumber(std::string_view key, const toml::node& node,
   const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
   if (value && std::isfinite(*value) && std::abs(*value) > kLargestNumber)
     fail(key, fmt::format("is {}, beyond the range of single precision, 3.4e38", describe(node)));
+  if (value && range.open_low && *value > 0 && *value < std::numeric_limits<float>::min())
+    fail(key, fmt::format("is {}, below the range of single precision, 1.2e-38", describe(node)));
   if (!value || !range.contains(*value)) {
     fail(key, fmt::format("is {}, expected {}", describe(node), range.text()));
   }

@@ -70,11 +70,13 @@ void serve(const std::vector<Check>& checks, const CheckProcess::Open& open, int
   }
 }
 
-// The child's main; never returns. Ctrl-C reaches it too, but it is the parent that ends it.
+// The child's main; never returns. Ctrl-C and the end of a terminal reach it too, but it is the
+// parent that ends it.
 [[noreturn]] void runChild(const std::vector<Check>& checks, const CheckProcess::Open& open,
                            int socket, pid_t parent) {
   dieWithParent(parent, kExitCheckFailed);
   signal(SIGINT, SIG_IGN);
+  signal(SIGHUP, SIG_IGN);
   signal(SIGTERM, SIG_DFL);
   try {
     serve(checks, open, socket);

@@ -140,6 +140,30 @@ Finding lobe(const CheckContext& context, ConeKind kind) {
   return finding;
 }
 
+// The lobe under lights that stand exactly on the normal, above and below the surface, as one light
+// over a flat floor stands for every pixel.
+Finding onTheNormal(const CheckContext& context, double half_deg) {
+  const double half_rad = half_deg * kDegree, power = 2 / (1 + std::cos(half_rad));
+  Finding finding(half_deg <= kConeNarrow_deg ? kNarrowConeTolerance : kWideConeTolerance);
+  for (const glm::dvec2& alpha : kRoughness) {
+    std::vector<ConeCase> cases;
+    for (const double side : {1.0, -1.0}) {
+      for (const double view_deg : kViews_deg)
+        cases.push_back({{0, 0, side}, raised(view_deg * kDegree, 0.7)});
+      cases.push_back({{0, 0, side}, {0, 0, 1}});
+    }
+    const auto probed = probeCones(context, cases, materialOf(alpha, 0.3), half_rad, false);
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      const ConeCase& c = cases[i];
+      const double want =
+          reference::coneRadiance({c.axis, half_rad}, c.view, alpha, glm::dvec3(1), kConeSamples).x;
+      const double most = std::max(brightest(c, half_rad, alpha), want);
+      finding.add(std::abs(probed[i].specular * power - want) / std::max(most, 1e-30));
+    }
+  }
+  return finding;
+}
+
 // The lobe at silhouettes, under lights near the mirrored view and lights that the horizon cuts:
 // none that should be dark glows.
 Finding silhouettes(const CheckContext& context, double half_deg) {
@@ -366,6 +390,9 @@ std::vector<Check> coneChecks() {
   }
   for (const double half_deg : {0.5, 3.0, 9.0, 20.0})
     add(fmt::format("cone/{}deg_silhouettes", half_deg), "error over the brightest", silhouettes,
+        half_deg);
+  for (const double half_deg : {5.0, 45.0})
+    add(fmt::format("cone/{}deg_on_the_normal", half_deg), "error over the brightest", onTheNormal,
         half_deg);
   checks.push_back({"cone/narrow_probability", "relative error", narrowProbability});
   return checks;

@@ -14,6 +14,7 @@
 
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
+#include "host/core/json_depth.h"
 #include "host/report/record/record_log.h"
 #include "host/report/record/records.h"
 #include "host/verify/check_result_json.h"
@@ -62,8 +63,16 @@ void requireSameSetup(const RunInfo& old_run, const RunInfo& run, const std::str
                      {{"program version", old_run.git, run.git},
                       {"device", old_run.device, run.device},
                       {"driver", old_run.driver, run.driver},
+                      {"kernels, tables and scenes", old_run.inputs, run.inputs},
                       {"platform", old_run.platform, run.platform},
                       {"width", std::to_string(old_run.width), std::to_string(run.width)}});
+}
+
+std::string lineOf(const CheckResult& result) {
+  using Json = nlohmann::ordered_json;
+  return withChecksum(
+             checkResultJson(result).dump(-1, ' ', false, Json::error_handler_t::replace)) +
+         "\n";
 }
 
 // The whole lines; the last may have been cut off.
@@ -77,11 +86,17 @@ std::vector<std::string> wholeLines(const std::string& text) {
 std::map<std::string, CheckResult> readLog(const std::filesystem::path& file, const RunInfo& run) {
   std::map<std::string, CheckResult> kept;
   if (!std::filesystem::exists(file)) return kept;
-  const std::vector<std::string> lines = wholeLines(readFile(file));
+  std::vector<std::string> lines = wholeLines(readFile(file));
   if (lines.empty()) return kept;
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    if (const std::string where = fmt::format("{} line {}", file.string(), i + 1);
+        !takeChecksum(lines[i], where))
+      throw Error(where +
+                  " is damaged: its checksum is missing; run without --resume to start over");
   requireSameSetup(parseHeaderLine(lines.front(), file.string()), run, file.string());
   try {
     for (std::size_t i = 1; i < lines.size(); ++i) {
+      checkJsonDepth(lines[i], file.string());
       CheckResult result = checkResultFromJson(nlohmann::ordered_json::parse(lines[i]));
       kept[result.name] = std::move(result);
     }
@@ -143,11 +158,12 @@ std::string verificationJunit(const Verification& v) {
 VerificationLog::VerificationLog(const std::filesystem::path& file, const RunInfo& run, bool resume)
     : file_(file) {
   if (resume) kept_ = readLog(file, run);
-  descriptor_ = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0644);
+  std::string text = withChecksum(headerLine(run)) + "\n";
+  for (const auto& [name, result] : kept_) text += lineOf(result);
+  writeFile(file, text);  // whole or not at all: what was kept stays kept
+  descriptor_ = open(file.c_str(), O_WRONLY | O_APPEND | O_NOFOLLOW | O_CLOEXEC);
   if (descriptor_ < 0)
     throw Error(fmt::format("cannot write {}: {}", file.string(), std::strerror(errno)));
-  writeAll(descriptor_, headerLine(run) + "\n", file_);
-  for (const auto& [name, result] : kept_) append(result);
 }
 
 VerificationLog::~VerificationLog() {
@@ -167,11 +183,7 @@ VerificationLog& VerificationLog::operator=(VerificationLog&& other) noexcept {
 }
 
 void VerificationLog::append(const CheckResult& result) {
-  if (descriptor_ < 0) return;
-  const nlohmann::ordered_json json = checkResultJson(result);
-  writeAll(descriptor_,
-           json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n",
-           file_);
+  if (descriptor_ >= 0) writeAll(descriptor_, lineOf(result), file_);
 }
 
 void VerificationLog::discard() {

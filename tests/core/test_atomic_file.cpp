@@ -100,15 +100,19 @@ TEST_F(AtomicFiles, WhatAKilledRunLeftGoesWithTheNextAndWhatLivesStays) {
   ASSERT_EQ(waitpid(child, nullptr, 0), child);
   const AtomicFile living(folder_ / "b");
   // Those of a process of that number elsewhere are held by a lock.
-  const fs::path foreign = folder_ / (".c.00.1" + std::to_string(child) + ".tmp");
+  const fs::path foreign = folder_ / (".c.00112233445566ff.1" + std::to_string(child) + ".tmp");
+  // What another program named so is no business of ours.
+  const fs::path other = folder_ / (".c." + std::to_string(child) + ".tmp");
+  close(open(other.c_str(), O_WRONLY | O_CREAT, 0600));
   const int held = open(foreign.c_str(), O_WRONLY | O_CREAT, 0600);
   flock(held, LOCK_EX);
   removeAbandonedFiles(folder_);
-  EXPECT_EQ(filesInFolder(), 2);
+  EXPECT_EQ(filesInFolder(), 3);
   EXPECT_TRUE(fs::exists(foreign));
   close(held);
   removeAbandonedFiles(folder_);
-  EXPECT_EQ(filesInFolder(), 1);
+  EXPECT_EQ(filesInFolder(), 2);
+  EXPECT_TRUE(fs::exists(other));
 }
 
 TEST_F(AtomicFiles, WhatFailsLeavesTheOldFileAndNothingElse) {

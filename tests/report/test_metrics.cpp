@@ -69,7 +69,7 @@ TEST(Metrics, BadValuesAreNegativeOrNotFinite) {
 TEST(Metrics, RadianceThatIsNotToBeMeasuredSaysWhy) {
   Image radiance(2, 1, 4);
   radiance.pixels = {0, 0, 0, 1, 0, 0, 0, 1};  // covered, and black
-  EXPECT_EQ(radianceFault(radiance), "no light reaches what the view shows");
+  EXPECT_EQ(radianceFault(radiance), "nothing that the view shows reflects light to it");
   radiance.pixels[6] = 1e-30f;
   EXPECT_EQ(radianceFault(radiance), "");
   radiance.pixels[1] = -1;

@@ -124,6 +124,9 @@ TEST(Records, DamagedTextsAreNamed) {
   EXPECT_NE(error(whole.substr(0, whole.size() / 2)).find("old.json is not valid JSON"),
             std::string::npos);
   EXPECT_NE(error("").find("cut off"), std::string::npos);
+  EXPECT_NE(error("{\"schema\":" + std::string(1000000, '[') + std::string(1000000, ']') + "}")
+                .find("more brackets in brackets"),
+            std::string::npos);
   EXPECT_NE(error("[]").find("no results schema"), std::string::npos);
   EXPECT_NE(error("{\"schema\":\"glintmark.results/2\"}").find("'glintmark.results/1'"),
             std::string::npos);

@@ -94,9 +94,10 @@ TEST_P(BadMaterialValues, AreErrors) {
 INSTANTIATE_TEST_SUITE_P(
     All, BadMaterialValues,
     testing::Values(
-        BadValue{"global_roughness = 0", "is 0, expected a number in (0, 1]"},
-        BadValue{"global_roughness = 1.5", "expected a number in (0, 1]"},
-        BadValue{"global_roughness = nan", "is nan, expected a number in (0, 1]"},
+        BadValue{"global_roughness = 0", "is 0, expected a number in [1e-06, 1]"},
+        BadValue{"global_roughness = 1e-7", "is 1e-07, expected a number in [1e-06, 1]"},
+        BadValue{"global_roughness = 1.5", "expected a number in [1e-06, 1]"},
+        BadValue{"global_roughness = nan", "is nan, expected a number in [1e-06, 1]"},
         BadValue{"global_roughness = [0.1, 0.2, 0.3]", "expected 2 numbers or one"},
         BadValue{"global_roughness = \"rough\"", "is 'rough', expected 2 numbers or one"},
         BadValue{"micro_roughness = [0.5, -0.1]", "is -0.1, expected a number in (0, 1]"},
@@ -217,6 +218,10 @@ TEST(BadScenes, NumbersBeyondFloatsAreRefusedWithTheirKey) {
         "material.paint.intensity=1e39", "post.exposure=1e300", "view.front.eye=[0, -1e39, 1]"})
     expectMessage(errorOf([&] { load(scene, {set}); }), {set, "range of single precision, 3.4e38"});
   EXPECT_EQ(load(scene, {"light.sun.irradiance=1e38"}).lights.size(), 1u);
+  // What has to be above 0 must not become 0 there.
+  for (const char* set : {"mesh.uv_scale=1e-300", "post.exposure=1e-39"})
+    expectMessage(errorOf([&] { load(scene, {set}); }),
+                  {set, "below the range of single precision, 1.2e-38"});
 }
 
 }  // namespace

@@ -145,8 +145,28 @@ TEST(Environment, CutsAreDeterministicAndStopAtPixels) {
     EXPECT_EQ(a[i].direction.x, b[i].direction.x);
     EXPECT_EQ(a[i].irradiance.z, b[i].irradiance.z);
   }
-  EXPECT_LE(cutEnvironment(constantMap(2, 1, 1), {100, 1, 0}).size(), 2u);
-  EXPECT_EQ(cutEnvironment(constantMap(1, 1, 1), {100, 1, 0}).size(), 1u);
+  Image stars = constantMap(64, 32, 0);
+  for (const int x : {3, 30}) stars.at(x, 9)[1] = 7;
+  EXPECT_EQ(cutEnvironment(stars, {100, 1, 0}).size(), 2u);
+  EXPECT_EQ(cutEnvironment(constantMap(1, 1, 1), {100, 1, 0}).size(), 100u);
+}
+
+// An even sky is even however few pixels, rows or columns say so.
+TEST(Environment, PixelsOfCoarseMapsAreAreas) {
+  const std::vector<ConeLight> wanted = cutEnvironment(constantMap(512, 256, 1), {6, 1, 0});
+  for (const auto& [width, height] : {std::pair{1, 1}, {2, 1}, {1, 64}, {512, 1}, {8, 4}}) {
+    const std::vector<ConeLight> cones = cutEnvironment(constantMap(width, height, 1), {6, 1, 0});
+    // What a floor gets: irradiance on the axis times the cosine, of cones above the horizon.
+    const auto on_floor = [](const std::vector<ConeLight>& lights) {
+      double sum = 0;
+      for (const ConeLight& c : lights)
+        sum += static_cast<double>(c.irradiance.x) * std::max(0.0f, c.direction.y);
+      return sum;
+    };
+    EXPECT_NEAR(totalFlux(cones).x, 4 * kPi, 1e-3) << width << " x " << height;
+    EXPECT_NEAR(on_floor(cones), on_floor(wanted), 0.05 * on_floor(wanted))
+        << width << " x " << height;
+  }
 }
 
 TEST(Environment, MoreConesLessSpread) {

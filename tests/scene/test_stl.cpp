@@ -1,5 +1,6 @@
 // STL files: binary and text, what is one vertex, and what is refused.
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <numbers>
@@ -107,6 +108,17 @@ TEST(Stl, SolidsOfATextAreParts) {
       stl(text({kSquareFacets[0]}, "") + text({}, "empty") + text(kSquareFacets, "top side"));
   EXPECT_EQ(mesh.parts, (std::vector<std::string>{"DefaultMaterial", "empty", "top side"}));
   EXPECT_EQ(mesh.mesh.triangle_materials, (std::vector<std::uint32_t>{0, 2, 2}));
+}
+
+TEST(Stl, ManySolidsAreFoundByTheirNames) {
+  std::string content;
+  for (int i = 0; i < 100000; ++i) content += "solid " + std::to_string(i) + "\n";
+  content += text({kSquareFacets[0]}, "7") + text(kSquareFacets, "last");
+  const auto begin = std::chrono::steady_clock::now();
+  const PartMesh mesh = stl(content);  // searched one by one they take 20 s
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
+  EXPECT_EQ(mesh.parts.size(), 100001u);
+  EXPECT_EQ(mesh.mesh.triangle_materials, (std::vector<std::uint32_t>{7, 100000, 100000}));
 }
 
 TEST(Stl, LongFilesAreReadInPieces) {

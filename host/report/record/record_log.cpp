@@ -31,7 +31,18 @@ void requireSameSetup(const RunInfo& old_run, const RunInfo& run, const std::str
 constexpr std::string_view kChecksumStart = ",\"sum\":\"";
 constexpr std::size_t kChecksumBytes = kChecksumStart.size() + 16 + 2;
 
-// Takes the checksum off a line; false if it has none. Throws Error if it is that of another line.
+}  // namespace
+
+void requireSharedFacts(const std::string& file, const char* made,
+                        std::initializer_list<SharedFact> facts) {
+  for (const SharedFact& fact : facts) {
+    if (fact.before == fact.now) continue;
+    throw Error(fmt::format(
+        "cannot resume {}: {} with {} '{}', not '{}'; run without --resume to start over", file,
+        made, fact.name, fact.before, fact.now));
+  }
+}
+
 bool takeChecksum(std::string& line, const std::string& source) {
   if (line.size() < kChecksumBytes) return false;
   const std::string_view end = std::string_view(line).substr(line.size() - kChecksumBytes);
@@ -45,18 +56,6 @@ bool takeChecksum(std::string& line, const std::string& source) {
                     source));
   line += '}';
   return true;
-}
-
-}  // namespace
-
-void requireSharedFacts(const std::string& file, const char* made,
-                        std::initializer_list<SharedFact> facts) {
-  for (const SharedFact& fact : facts) {
-    if (fact.before == fact.now) continue;
-    throw Error(fmt::format(
-        "cannot resume {}: {} with {} '{}', not '{}'; run without --resume to start over", file,
-        made, fact.name, fact.before, fact.now));
-  }
 }
 
 std::string withChecksum(std::string line) {

@@ -37,6 +37,9 @@ LogContent parseLog(const std::string& text, const std::string& source);
 
 /// A line of a log, which is a JSON object, with a field "sum" at its end: a hash of all before it.
 std::string withChecksum(std::string line);
+/// Takes that field off again; false if there is none. Throws Error naming `source` if the line is
+/// not what it was.
+bool takeChecksum(std::string& line, const std::string& source);
 
 class RecordLog {
  public:

@@ -8,6 +8,7 @@
 
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
+#include "host/core/json_depth.h"
 
 namespace glintmark {
 namespace {
@@ -127,6 +128,7 @@ Record recordFromJson(const Json& json) {
 }
 
 Json parse(const std::string& text, const std::string& source) {
+  checkJsonDepth(text, source);
   try {
     return Json::parse(text);
   } catch (const Json::parse_error& error) {

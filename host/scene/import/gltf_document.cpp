@@ -10,6 +10,7 @@
 
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
+#include "host/core/json_depth.h"
 #include "host/scene/import/text_scanner.h"
 
 namespace glintmark {
@@ -66,6 +67,15 @@ int hexValue(char c) {
 
 std::string keyOf(const nlohmann::json& reference) {
   return reference.is_string() ? reference.get<std::string>() : reference.dump();
+}
+
+/// For messages.
+std::string shown(std::string text) {
+  constexpr std::size_t kMost_bytes = 80;
+  if (text.size() > kMost_bytes) text = text.substr(0, kMost_bytes) + "...";
+  std::ranges::replace_if(
+      text, [](unsigned char c) { return c < ' '; }, '?');
+  return text;
 }
 
 }  // namespace
@@ -144,6 +154,7 @@ void GltfDocument::readGlb(std::string bytes) {
 }
 
 void GltfDocument::parse(std::string_view text) {
+  checkJsonDepth(text, source_);
   try {
     root_ = Json::parse(text);
   } catch (const Json::exception& error) {
@@ -182,7 +193,7 @@ const GltfDocument::Json& GltfDocument::object(const char* collection,
     if (named != all->end()) found = &*named;
   }
   if (found == nullptr || !found->is_object())
-    fail(fmt::format("cannot be read as a mesh: there is no {} in its {}", keyOf(reference),
+    fail(fmt::format("cannot be read as a mesh: there is no {} in its {}", shown(keyOf(reference)),
                      collection));
   return *found;
 }
@@ -223,7 +234,7 @@ std::filesystem::path GltfDocument::uriFile(const std::string& uri) const {
   std::string path = uri.starts_with("file://") ? uri.substr(7) : uri;
   const std::size_t colon = path.find(':');
   if (colon != std::string::npos && colon > 1 && path.compare(colon, 3, "://") == 0)
-    fail(fmt::format("names {}, expected files beside it", uri));
+    fail(fmt::format("names {}, expected files beside it", shown(uri)));
   const std::filesystem::path decoded = folder_ / percentDecoded(path);
   std::error_code error;
   // Some programs write blanks and signs as they are.
@@ -237,7 +248,7 @@ std::string GltfDocument::uriBytes(const std::string& uri) const {
     const std::filesystem::path file = uriFile(uri);
     std::error_code error;
     if (!std::filesystem::exists(file, error))
-      fail(fmt::format("names the file {}, which is not there", percentDecoded(uri)));
+      fail(fmt::format("names the file {}, which is not there", shown(percentDecoded(uri))));
     return readFile(file);
   }
   const std::size_t comma = uri.find(',');
@@ -260,14 +271,15 @@ std::uint64_t GltfDocument::whole(const Json& object, const char* key,
   const double value = found->is_number_float() ? found->get<double>() : -1;
   if (!(value >= 0 && value < 9e15) ||
       value != static_cast<double>(static_cast<std::uint64_t>(value)))
-    fail(fmt::format("{} is {}, expected a whole number of at least 0", key, found->dump()));
+    fail(fmt::format("{} is {}, expected a whole number of at least 0", key, shown(found->dump())));
   return static_cast<std::uint64_t>(value);
 }
 
 double GltfDocument::number(const Json& object, const char* key, double fallback) const {
   const auto found = object.find(key);
   if (found == object.end()) return fallback;
-  if (!found->is_number()) fail(fmt::format("{} is {}, expected a number", key, found->dump()));
+  if (!found->is_number())
+    fail(fmt::format("{} is {}, expected a number", key, shown(found->dump())));
   return found->get<double>();
 }
 
@@ -284,7 +296,8 @@ void GltfDocument::numbers(const Json& object, const char* key, std::size_t coun
 std::string GltfDocument::text(const Json& object, const char* key) const {
   const auto found = object.find(key);
   if (found == object.end()) return "";
-  if (!found->is_string()) fail(fmt::format("{} is {}, expected a text", key, found->dump()));
+  if (!found->is_string())
+    fail(fmt::format("{} is {}, expected a text", key, shown(found->dump())));
   return found->get<std::string>();
 }
 

@@ -15,7 +15,10 @@ using Json = GltfDocument::Json;
 
 constexpr std::uint64_t kTriangles = 4, kStrip = 5, kFan = 6;
 constexpr char kDraco[] = "KHR_draco_mesh_compression";
-constexpr std::size_t kBytesPerVertex = 200;  // here and in what follows
+constexpr std::size_t kBytesPerVertex = 200, kBytesHeld = 52;  // here and in what follows; here
+// Memory that a file may take before the machine is asked again whether there is more.
+constexpr std::size_t kUnasked_bytes = 64 << 20;
+constexpr std::size_t kMostOfName = 80;  // of its letters, in messages
 
 /// Turns normals as the matrix turns planes: its cofactors, which singular matrices have too. The
 /// sign keeps the side that the file gives a normal.
@@ -43,8 +46,8 @@ const Json* attribute(const Json& attributes, const std::string& name) {
 
 void GltfPrimitives::useMaterials(const Json& materials) {
   for (const auto& [key, material] : materials.items()) {
+    numbers_.emplace(key, static_cast<std::uint32_t>(uv_of_material_.size()));
     uv_of_material_.push_back(document_.version() == 1 ? GltfUv() : gltfUv(document_, material));
-    keys_.push_back(key);
   }
 }
 
@@ -52,14 +55,15 @@ std::uint32_t GltfPrimitives::partOf(const Json& primitive, GltfUv& uv) {
   const auto material = primitive.find("material");
   if (material == primitive.end()) {
     // One part for all that have none, after those of the file.
-    if (out_.parts.size() == keys_.size()) out_.parts.emplace_back("DefaultMaterial");
-    return static_cast<std::uint32_t>(keys_.size());
+    if (out_.parts.size() == numbers_.size()) out_.parts.emplace_back("DefaultMaterial");
+    return static_cast<std::uint32_t>(numbers_.size());
   }
   const std::string key = material->is_string() ? material->get<std::string>() : material->dump();
-  const auto found = std::ranges::find(keys_, key);
-  if (found == keys_.end()) document_.fail(fmt::format("there is no material {}", key));
-  uv = uv_of_material_[static_cast<std::size_t>(found - keys_.begin())];
-  return static_cast<std::uint32_t>(found - keys_.begin());
+  const auto found = numbers_.find(key);
+  if (found == numbers_.end())
+    document_.fail(fmt::format("there is no material {}", key.substr(0, kMostOfName)));
+  uv = uv_of_material_[found->second];
+  return found->second;
 }
 
 void GltfPrimitives::add(const Json& primitive, const glm::dmat4& transform,
@@ -91,11 +95,22 @@ void GltfPrimitives::add(const Json& primitive, const glm::dmat4& transform,
   if (normals_.empty()) flatten(first_triangle);
 }
 
+/// Nodes that show one mesh, and primitives that share accessors, may each be too small to be asked
+/// for, but a small file may hold a million of them. What follows takes memory for all.
+void GltfPrimitives::requireMemoryForAll(std::size_t count) {
+  unasked_bytes_ += count * kBytesPerVertex;
+  if (unasked_bytes_ < kUnasked_bytes) return;
+  requireMemory(unasked_bytes_ + out_.positions.size() * (kBytesPerVertex - kBytesHeld),
+                document_.source());
+  unasked_bytes_ = 0;
+}
+
 void GltfPrimitives::addVertices(const Json& attributes, const GltfUv& uv) {
   const GltfAccessor positions(document_, attributes["POSITION"]);
   if (compressed_ && !positions.isStored()) document_.failToDecode(kDraco);
   const std::size_t count = positions.count();
   requireMemory(count * kBytesPerVertex, document_.source());
+  requireMemoryForAll(count);
   if (out_.positions.size() + count > 0xFFFFFFF0u)
     document_.fail("the mesh has more vertices than 4294967279");
   positions_.reserve(count);
@@ -131,6 +146,7 @@ void GltfPrimitives::addVertices(const Json& attributes, const GltfUv& uv) {
 
 void GltfPrimitives::morph(const Json& primitive, const Json& weights) {
   const Json& targets = primitive["targets"];
+  if (!targets.is_array()) document_.fail("the morph targets of a primitive are no list");
   for (std::size_t t = 0; t < targets.size() && t < weights.size(); ++t) {
     const double weight = weights[t].is_number() ? weights[t].get<double>() : 0;
     if (weight == 0 || !targets[t].is_object()) continue;

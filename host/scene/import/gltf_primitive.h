@@ -2,6 +2,8 @@
 #pragma once
 #include <glm/glm.hpp>
 #include <optional>
+#include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "host/scene/import/gltf_accessor.h"
@@ -28,6 +30,7 @@ class GltfPrimitives {
   using Json = GltfDocument::Json;
 
   std::uint32_t partOf(const Json& primitive, GltfUv& uv);
+  void requireMemoryForAll(std::size_t count);
   void addVertices(const Json& attributes, const GltfUv& uv);
   void morph(const Json& primitive, const Json& weights);
   void place(const glm::dmat4& transform);
@@ -39,13 +42,14 @@ class GltfPrimitives {
   GltfDocument& document_;
   MeshSource& out_;
   std::vector<GltfUv> uv_of_material_;
-  std::vector<std::string> keys_;  // of materials that are named
+  std::unordered_map<std::string, std::uint32_t> numbers_;  // of materials, by what names them
   // Of the primitive at hand, before its transform.
   std::vector<glm::dvec3> positions_;
   std::vector<glm::dvec3> normals_;
   std::vector<bool> mirrored_;  // by its transform; one for all, or one per vertex
   std::size_t first_vertex_ = 0;
   bool compressed_ = false;
+  std::size_t unasked_bytes_ = 0;
 };
 
 }  // namespace glintmark

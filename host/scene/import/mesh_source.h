@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <limits>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "host/scene/part_mesh.h"
@@ -29,12 +30,14 @@ struct MeshSource {
   std::vector<std::string> notes;
   std::vector<FileMaterial> materials;  // empty, or one per part
 
-  /// Index of the part of that name, new or known.
+  std::unordered_map<std::string, std::uint32_t> part_numbers;  // of those that part() made
+
+  /// Index of the part of that name, new or known. Readers that call it add no part otherwise.
   std::uint32_t part(const std::string& name) {
-    for (std::size_t i = parts.size(); i-- > 0;)
-      if (parts[i] == name) return static_cast<std::uint32_t>(i);
-    parts.push_back(name);
-    return static_cast<std::uint32_t>(parts.size() - 1);
+    const auto [found, is_new] =
+        part_numbers.emplace(name, static_cast<std::uint32_t>(parts.size()));
+    if (is_new) parts.push_back(name);
+    return found->second;
   }
 };
 

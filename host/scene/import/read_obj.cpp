@@ -7,7 +7,6 @@
 #include <cmath>
 #include <filesystem>
 #include <optional>
-#include <unordered_map>
 
 #include "host/core/error.h"
 #include "host/scene/import/distinct_values.h"
@@ -87,7 +86,7 @@ class ObjReader {
       const std::size_t begin = line.find_first_not_of(" \t");
       std::string name(begin == std::string_view::npos ? "" : line.substr(begin));
       while (!name.empty() && (name.back() == ' ' || name.back() == '\t')) name.pop_back();
-      part_ = partOf(name);
+      part_ = out_.part(name);
     } else if (key == "s") {
       const std::string_view word = takeWord(line);
       group_ = word == "off" ? kFlat : wholeNumber(word).value_or(1);
@@ -117,15 +116,6 @@ class ObjReader {
       value[i] = *number;
     }
     return value;
-  }
-
-  std::uint32_t partOf(const std::string& name) {
-    const auto [found, added] = part_of_.emplace(name, 0);
-    if (added) {
-      found->second = static_cast<std::uint32_t>(out_.parts.size());
-      out_.parts.push_back(name);
-    }
-    return found->second;
   }
 
   /// Position in a list of `count` so far; lists may grow to hold it later.
@@ -179,7 +169,7 @@ class ObjReader {
       flat_.push_back(corner.position < positions_.size() ? positions_[corner.position]
                                                           : glm::dvec3(0));
     }
-    if (!part_) part_ = partOf("DefaultMaterial");
+    if (!part_) part_ = out_.part("DefaultMaterial");
     pieces_.clear();
     triangulate(flat_, pieces_);
     for (const auto& [a, b, c] : pieces_) {
@@ -239,7 +229,6 @@ class ObjReader {
   std::size_t line_ = 0;
   std::uint32_t faces_ = 0, group_ = 1;
   std::optional<std::uint32_t> part_;
-  std::unordered_map<std::string, std::uint32_t> part_of_;
   bool has_free_form_ = false;
   std::vector<glm::dvec3> positions_;
   std::vector<glm::dvec2> uvs_;

@@ -45,6 +45,7 @@ class OtherReader {
     importer_.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
                                  aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     if (importer_.ReadFile(source_, 0) == nullptr) failToRead();
+    requireFaces();
     for (unsigned m = 0; m < importer_.GetScene()->mNumMeshes; ++m)
       checkFaces(*importer_.GetScene()->mMeshes[m], source_);
     scene_ = importer_.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_SortByPType);
@@ -58,8 +59,20 @@ class OtherReader {
   }
 
  private:
-  [[noreturn]] void failToRead() const {
-    // Assimp guesses by their first bytes what files of other names are.
+  /// Of what it does not know all of, assimp may make a scene of nothing.
+  void requireFaces() const {
+    const aiScene& scene = *importer_.GetScene();
+    for (unsigned m = 0; m < scene.mNumMeshes; ++m)
+      if (scene.mMeshes[m]->mNumFaces > 0) return;
+    refuseOtherFormats();
+    throw Error(
+        fmt::format("{}: assimp, which reads such files, finds no triangles in it; save it as OBJ, "
+                    "PLY, STL or glTF",
+                    source_));
+  }
+
+  /// Assimp guesses by their first bytes what files of other names are.
+  void refuseOtherFormats() const {
     const std::string extension = std::filesystem::path(source_).extension().string();
     if (!importer_.IsExtensionSupported(extension))
       throw Error(
@@ -68,6 +81,10 @@ class OtherReader {
                       source_,
                       extension.empty() ? "without an extension it is of"
                                         : "files that end in '" + extension + "' are of"));
+  }
+
+  [[noreturn]] void failToRead() const {
+    refuseOtherFormats();
     std::string reason = importer_.GetErrorString();
     while (!reason.empty() && (reason.back() == '.' || reason.back() == '\n')) reason.pop_back();
     std::ranges::replace(reason, '\n', ' ');
@@ -155,7 +172,9 @@ void hand(const std::filesystem::path& file, int out) {
     for (const std::string& part : mesh.parts) sendText(out, part);
   } catch (const std::bad_alloc&) {
     send(out, &kFault, 1);
-    sendText(out, file.string() + ": needs more memory to be read than is free");
+    sendText(out, file.string() +
+                      ": asks for more memory to be read than is free; it is damaged, or too large "
+                      "for this machine");
   } catch (const std::exception& fault) {
     send(out, &kFault, 1);
     sendText(out, fault.what());

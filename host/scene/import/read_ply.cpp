@@ -62,7 +62,7 @@ class PlyReader {
         readVertices(element);
       } else if (element.name == "face" || element.name == "tristrips") {
         readFaces(element);
-      } else {
+      } else if (!element.properties.empty()) {
         for (std::uint64_t i = 0; i < element.count; ++i) readRow(element);
       }
     }
@@ -90,7 +90,7 @@ class PlyReader {
       lists_[i].resize(numbers_.nextCount(property));
       for (double& value : lists_[i]) value = numbers_.next(property.type);
     }
-    if (!element.properties.empty()) numbers_.endElement();
+    numbers_.endElement();
   }
 
   void readVertices(const PlyElement& element) {
@@ -117,6 +117,8 @@ class PlyReader {
   }
 
   void readFaces(const PlyElement& element) {
+    // Nothing of them is in the file, however many its header counts.
+    if (element.properties.empty()) return;
     const int indices = element.find({"vertex_indices", "vertex_index"});
     const int wedges = element.find({"texcoord"});
     const bool strips = element.name == "tristrips";
