@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "host/cli/command_line.h"
+#include "host/cli/own_files.h"
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
 #include "host/experiment/all_tables.h"
@@ -61,6 +62,10 @@ int runCompare(const CompareOptions& options) {
   if (!(options.threshold_percent >= 0 && options.threshold_percent <= 1000))
     throw Error(fmt::format("--threshold {} is not a percentage from 0 to 1000",
                             options.threshold_percent));
+  std::vector<std::string> read;
+  for (const std::string& file : options.files)
+    read.insert(read.end(), {file, (std::filesystem::path(file) / "results.json").string()});
+  requireOwnFiles({{"--json", options.json}}, read);
   if (!options.json.empty()) requireWritableFile(options.json);
   std::vector<Results> runs;
   for (const std::string& file : options.files) runs.push_back(resultsAt(file));

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "host/cli/command_line.h"
+#include "host/cli/own_files.h"
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
 #include "host/report/difference/difference_picture.h"
@@ -39,6 +40,8 @@ void checkDiffOptions(const DiffOptions& options) {
   if (!(options.trim_percent >= 0 && options.trim_percent <= 50))
     throw Error(fmt::format("--trim {} is not a percentage from 0 to 50", options.trim_percent));
   if (!options.output.empty()) requireImageExtension(options.output);
+  requireOwnFiles({{"-o", options.output}, {"--json", options.json}},
+                  {options.picture, options.reference});
   for (const std::string& file : {options.output, options.json})
     if (!file.empty()) requireWritableFile(file);
 }

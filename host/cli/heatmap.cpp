@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "host/cli/command_line.h"
+#include "host/cli/own_files.h"
 #include "host/cli/shading_flags.h"
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
@@ -86,6 +87,8 @@ int runView(const CommonOptions& common, const HeatmapCommand& command,
 }
 
 int runHeatmap(const CommonOptions& common, const HeatmapCommand& command) {
+  requireOwnFiles({{"-o", command.picture}, {"--exr", command.exr}, {"--csv", command.csv}},
+                  sceneInputs(common, command.scene));
   checkOutputs(command);
   const char* default_size = command.sweep_angle ? "960x540" : "1920x1080";
   const ImageSize size = parseSize(command.size.empty() ? default_size : command.size);

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "host/cli/command_line.h"
+#include "host/cli/own_files.h"
 #include "host/cli/picture_verdict.h"
 #include "host/cli/shading_flags.h"
 #include "host/core/atomic_file.h"
@@ -127,9 +128,6 @@ void checkRenderOptions(const RenderOptions& options) {
       throw Error(
           fmt::format("--aov '{}' must end in .exr: planes are floats", options.aov_output));
     }
-    if (std::filesystem::weakly_canonical(options.aov_output) ==
-        std::filesystem::weakly_canonical(options.output))
-      throw Error(fmt::format("--aov '{}' is the picture's own file", options.aov_output));
     requireWritableFile(options.aov_output);
   }
   if (options.exposure && !(*options.exposure > 0)) {
@@ -271,6 +269,9 @@ void writePlanes(const Scene& scene, const Camera& camera, int threads, const st
 
 int runRender(const CommandLine& line, const RenderOptions& options) {
   const CommonOptions& common = line.common;
+  requireOwnFiles(
+      {{"-o", options.output}, {"--aov", options.aov_output}, {"--trace", options.trace}},
+      sceneInputs(common, options.scene));
   checkRenderOptions(options);
   const ImageSize size = parseSize(options.size);
   if (!options.aov_output.empty()) requireMemoryForPlanes(size.width_px, size.height_px);

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "host/cli/command_line.h"
+#include "host/cli/own_files.h"
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
 #include "host/experiment/all_tables.h"
@@ -84,6 +85,7 @@ std::vector<fs::path> resultsBelow(const std::vector<std::string>& folders) {
 
 int runReport(const std::vector<std::string>& folders, const std::string& output) {
   const std::vector<fs::path> sources = resultsBelow(folders);
+  requireOwnFiles({{"-o", output}}, {sources.begin(), sources.end()});
   requireWritableFile(output);
   const bool is_one = folders.size() == 1 && fs::path(folders[0]) / "results.json" == sources[0];
   return is_one ? reportOne(folders[0], output) : reportMany(sources, output);

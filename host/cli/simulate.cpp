@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "host/cli/command_line.h"
+#include "host/cli/own_files.h"
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
 #include "host/core/progress.h"
@@ -181,6 +182,8 @@ std::string slopesText(const Simulator& simulator, const SimulationSettings& set
 
 // What of the files belongs to the first rank alone: whether they can be written, and the lock.
 std::unique_ptr<FolderLock> checkFiles(const SimulateOptions& options) {
+  requireOwnFiles(
+      {{"--checkpoint", options.checkpoint}, {"-o", options.picture}, {"--csv", options.csv}});
   for (const std::string& file : {options.checkpoint, options.picture, options.csv})
     if (!file.empty()) requireWritableFile(file);
   if (options.checkpoint.empty()) return nullptr;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "host/cli/command_line.h"
+#include "host/cli/own_files.h"
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
 #include "host/core/progress.h"
@@ -147,6 +148,7 @@ void checkOptions(const VerifyOptions& options) {
     throw Error(fmt::format("--timeout {} is not a positive number of seconds", options.timeout_s));
   if (options.resume && logFile(options).empty())
     throw Error("--resume needs the --json or --junit file of the run that it carries on with");
+  requireOwnFiles({{"--json", options.json}, {"--junit", options.junit}});
   for (const std::string& file : {options.json, options.junit, logFile(options).string()})
     if (!file.empty()) requireWritableFile(file);
 }

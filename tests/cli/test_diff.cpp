@@ -62,5 +62,27 @@ TEST_F(Diff, BadInput) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "e.png"));
 }
 
+// Outputs replace what stands there: never what they are made from, and not each other.
+TEST(OwnFiles, AreWrittenOverNothingThatIsRead) {
+  const TempFolder folder;
+  const std::filesystem::path a = folder / "a.exr", link = folder / "link.exr";
+  writeExr(Image(8, 8, 3), a);
+  std::filesystem::create_symlink(a, link);
+  const std::string before = readFile(a);
+  for (const std::filesystem::path& output : {a, link, folder.path() / "." / "a.exr"}) {
+    const ProcessResult result = runGlintmark({"diff", a, a, "-o", output});
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_NE(result.err.find("written over what is read"), std::string::npos) << result.err;
+  }
+  EXPECT_EQ(readFile(a), before);
+  const std::string map = "environment.image='" + a.string() + "'";
+  EXPECT_EQ(runGlintmark({"render", "screen_plane", "-o", a, "--set", map}).exit_code, 2);
+  EXPECT_EQ(readFile(a), before);
+  const std::filesystem::path b = folder / "b.png";
+  const ProcessResult twice = runGlintmark({"diff", a, a, "-o", b, "--json", b});
+  EXPECT_EQ(twice.exit_code, 2);
+  EXPECT_NE(twice.err.find("is the file of -o too"), std::string::npos) << twice.err;
+}
+
 }  // namespace
 }  // namespace glintmark

@@ -341,7 +341,7 @@ TEST(Render, PlanesDoNotOverwriteThePicture) {
   const ProcessResult result =
       runGlintmark({"render", "screen_plane", "-o", folder / "a.exr", "--aov", folder / "./a.exr"});
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_NE(result.err.find("is the picture's own file"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("is the file of -o too"), std::string::npos) << result.err;
   EXPECT_EQ(folder.entryCount(), 0u);
 }
 

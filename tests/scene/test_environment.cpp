@@ -153,10 +153,10 @@ TEST(Environment, CutsAreDeterministicAndStopAtPixels) {
 
 // An even sky is even however few pixels, rows or columns say so.
 TEST(Environment, PixelsOfCoarseMapsAreAreas) {
-  const std::vector<ConeLight> wanted = cutEnvironment(constantMap(512, 256, 1), {6, 1, 0});
+  const std::vector<ConeLight> wanted = cutEnvironment(constantMap(512, 256, 1), {256, 1, 0});
   for (const auto& [width, height] : {std::pair{1, 1}, {2, 1}, {1, 64}, {512, 1}, {8, 4}}) {
-    const std::vector<ConeLight> cones = cutEnvironment(constantMap(width, height, 1), {6, 1, 0});
-    // What a floor gets: irradiance on the axis times the cosine, of cones above the horizon.
+    const std::vector<ConeLight> cones = cutEnvironment(constantMap(width, height, 1), {256, 1, 0});
+    // What a floor gets of cones so narrow that the horizon cuts little of them.
     const auto on_floor = [](const std::vector<ConeLight>& lights) {
       double sum = 0;
       for (const ConeLight& c : lights)
