@@ -64,6 +64,23 @@ std::optional<Launched> countedRanks() {
   return std::nullopt;
 }
 
+// Open MPI does not start without a home, which users of containers may lack; nothing else is to
+// take this one for theirs.
+class HomeForMpi {
+ public:
+  HomeForMpi() : lent_(std::getenv("HOME") == nullptr) {
+    if (lent_) setenv("HOME", "/tmp", 1);
+  }
+  ~HomeForMpi() {
+    if (lent_) unsetenv("HOME");
+  }
+  HomeForMpi(const HomeForMpi&) = delete;
+  HomeForMpi& operator=(const HomeForMpi&) = delete;
+
+ private:
+  const bool lent_;
+};
+
 }  // namespace
 
 SharedTime::Spent SharedTime::spent() const {
@@ -114,6 +131,7 @@ void joinRanks() {
         "this glintmark was built without MPI, so mpirun cannot share its work among ranks: start "
         "it without mpirun, or install libopenmpi-dev and build it anew");
   }
+  const HomeForMpi home;
   // Open MPI's own modules look for its symbols among those of the program.
   auto* const join = reinterpret_cast<JoinMpiFunction*>(
       moduleFunction(kMpiModule, kJoinMpiSymbol, "sharing work among ranks needs", true));
@@ -144,6 +162,8 @@ int leaveRanks(int exit_code) {
 int endRanks(const std::string& sentence, int exit_code) {
   const Launched self = launched();
   if (!joined) {
+    // mpirun may end all, and drop what they said, as soon as one has ended.
+    if (self.rank > 0) std::this_thread::sleep_for(kFirstSpeaks);
     if (self.rank == 0) std::fprintf(stderr, "glintmark: %s\n", sentence.c_str());
     return exit_code;
   }

@@ -151,6 +151,15 @@ bool canShareRanks() {
          std::filesystem::exists(GLINTMARK_BINARY_DIR "/bin/glintmark_mpi.so");
 }
 
+int openMpiVersion() {
+  const std::string home = std::filesystem::temp_directory_path();
+  FILE* said = popen(("HOME='" + home + "' " + findMpirun() + " --version").c_str(), "r");
+  int major = 0;
+  if (said == nullptr || std::fscanf(said, "mpirun (Open MPI) %d", &major) != 1) major = 0;
+  if (said != nullptr) pclose(said);
+  return major;
+}
+
 ProcessResult runByRanks(int ranks, const std::vector<std::string>& arguments,
                          const std::vector<std::string>& environment) {
   return Process::byRanks(ranks, arguments, environment).wait();

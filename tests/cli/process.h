@@ -56,6 +56,8 @@ ProcessResult runGlintmark(const std::vector<std::string>& arguments,
 
 /// Is there an mpirun, and a glintmark that can be shared among its ranks?
 bool canShareRanks();
+/// Major version of the Open MPI that mpirun is of; 0 of another.
+int openMpiVersion();
 /// Starts glintmark by so many ranks and waits for all.
 ProcessResult runByRanks(int ranks, const std::vector<std::string>& arguments,
                          const std::vector<std::string>& environment = {});

@@ -34,7 +34,8 @@ case $what in
     config=$tree/share/glintmark/kernels/config.clh
     cp "$config" config.kept
     echo '#error of the installed tree' >>"$config"
-    if message=$("$program" --quiet render only_here --size 32x18 -o broken.png 2>&1); then
+    # What a failed build leaves for its reader goes away with the tree.
+    if message=$(TMPDIR=$tree "$program" --quiet render only_here --size 32x18 -o broken.png 2>&1); then
       message="it rendered"
     fi
     cp config.kept "$config"

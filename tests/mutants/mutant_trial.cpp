@@ -15,9 +15,11 @@ std::vector<std::string> trialArguments(const std::string& checks, const fs::pat
   return arguments;
 }
 
-std::vector<std::string> trialEnvironment(const fs::path& kernels, const fs::path& caches) {
+std::vector<std::string> trialEnvironment(const fs::path& folder, const fs::path& kernels,
+                                          const fs::path& caches) {
   // A binary to keep would have PoCL, which keeps its own, compile every kernel once more.
-  std::vector<std::string> environment = {"GLINTMARK_KERNELS=" + kernels.string(),
+  std::vector<std::string> environment = {"TMPDIR=" + folder.string(),
+                                          "GLINTMARK_KERNELS=" + kernels.string(),
                                           "GLINTMARK_PROGRAM_CACHE=off"};
   if (!caches.empty()) environment.push_back("POCL_CACHE_DIR=" + (caches / "pocl").string());
   return environment;

@@ -19,9 +19,10 @@ struct Trial {
 std::vector<std::string> trialArguments(const std::string& checks,
                                         const std::filesystem::path& json);
 
-/// Its environment: the kernels, and a folder for what the driver compiles; empty: the driver's
-/// own.
-std::vector<std::string> trialEnvironment(const std::filesystem::path& kernels,
+/// Its environment: a folder for what a failed build leaves, the kernels, and a folder for what the
+/// driver compiles; empty: the driver's own.
+std::vector<std::string> trialEnvironment(const std::filesystem::path& folder,
+                                          const std::filesystem::path& kernels,
                                           const std::filesystem::path& caches);
 
 /// Reads the file that a run has written; `errors` is what it said if it has written none.

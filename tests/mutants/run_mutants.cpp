@@ -84,7 +84,7 @@ class VerifyRun {
             const std::string& checks)
       : json_(folder / "found.json") {
     fs::remove(json_);
-    process_.emplace(trialArguments(checks, json_), trialEnvironment(kernels, caches));
+    process_.emplace(trialArguments(checks, json_), trialEnvironment(folder, kernels, caches));
   }
   bool isRunning() const { return process_->isRunning(); }
   Trial end() {

@@ -91,13 +91,18 @@ TEST(MutantTrials, WhatDoesNotBuildIsNotSeen) {
   const Mutant m = {"a", "glint/hash.clh", "return sum ^ (sum >> 15);", "return", ".", "", false};
   writeMutant(m, kSourceKernels, folder / "kernels");
   const fs::path json = folder / "found.json";
-  const ProcessResult result = runGlintmark(trialArguments("^seeds/integers$", json),
-                                            trialEnvironment(folder / "kernels", folder.path()));
+  const ProcessResult result =
+      runGlintmark(trialArguments("^seeds/integers$", json),
+                   trialEnvironment(folder.path(), folder / "kernels", folder.path()));
   EXPECT_EQ(result.exit_code, 1) << result.err;
   const Trial trial = readTrial(json, result.err);
   EXPECT_TRUE(trial.seen_by.empty());
   EXPECT_EQ(trial.not_judged, std::vector<std::string>{"seeds/integers"});
   EXPECT_FALSE(trial.fault.empty());
+  // What a failed build leaves for its reader is not left to all.
+  EXPECT_NE(result.out.find("options, log and sources are in " + (folder / "").string()),
+            std::string::npos)
+      << result.out << result.err;
 }
 
 }  // namespace
