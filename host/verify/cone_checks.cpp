@@ -120,22 +120,28 @@ struct ConeKind {
   bool groove;
 };
 
-// The lobe at any view, relative to the true value or the brightest of that view.
+// The lobe of these cases, relative to the true value or the brightest of its view.
+void addLobes(const CheckContext& context, std::vector<ConeCase>& cases, const glm::dvec2& alpha,
+              ConeKind kind, Finding& finding) {
+  const double half_rad = kind.half_deg * kDegree, power = 2 / (1 + std::cos(half_rad));
+  const auto probed = probeCones(context, cases, materialOf(alpha, 0.3), half_rad, kind.groove);
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const ConeCase& c = cases[i];
+    const double want =
+        reference::coneRadiance({c.axis, half_rad}, c.view, alpha, glm::dvec3(1), kConeSamples).x;
+    const double most = std::max(brightest(c, half_rad, alpha), want);
+    finding.add(std::abs(probed[i].specular * power - want) / std::max(most, 1e-30));
+  }
+}
+
+// The lobe at any view.
 Finding lobe(const CheckContext& context, ConeKind kind) {
   const double half_rad = kind.half_deg * kDegree;
   Finding finding(kind.half_deg <= kConeNarrow_deg ? kNarrowConeTolerance : kWideConeTolerance);
-  const double power = 2 / (1 + std::cos(half_rad));
   unsigned seed = 0;
   for (const glm::dvec2& alpha : kRoughness) {
     std::vector<ConeCase> cases = randomCones(alpha, half_rad, ++seed);
-    const auto probed = probeCones(context, cases, materialOf(alpha, 0.3), half_rad, kind.groove);
-    for (std::size_t i = 0; i < cases.size(); ++i) {
-      const ConeCase& c = cases[i];
-      const double want =
-          reference::coneRadiance({c.axis, half_rad}, c.view, alpha, glm::dvec3(1), kConeSamples).x;
-      const double most = std::max(brightest(c, half_rad, alpha), want);
-      finding.add(std::abs(probed[i].specular * power - want) / std::max(most, 1e-30));
-    }
+    addLobes(context, cases, alpha, kind, finding);
   }
   return finding;
 }
@@ -143,7 +149,6 @@ Finding lobe(const CheckContext& context, ConeKind kind) {
 // The lobe under lights that stand exactly on the normal, above and below the surface, as one light
 // over a flat floor stands for every pixel.
 Finding onTheNormal(const CheckContext& context, double half_deg) {
-  const double half_rad = half_deg * kDegree, power = 2 / (1 + std::cos(half_rad));
   Finding finding(half_deg <= kConeNarrow_deg ? kNarrowConeTolerance : kWideConeTolerance);
   for (const glm::dvec2& alpha : kRoughness) {
     std::vector<ConeCase> cases;
@@ -152,14 +157,7 @@ Finding onTheNormal(const CheckContext& context, double half_deg) {
         cases.push_back({{0, 0, side}, raised(view_deg * kDegree, 0.7)});
       cases.push_back({{0, 0, side}, {0, 0, 1}});
     }
-    const auto probed = probeCones(context, cases, materialOf(alpha, 0.3), half_rad, false);
-    for (std::size_t i = 0; i < cases.size(); ++i) {
-      const ConeCase& c = cases[i];
-      const double want =
-          reference::coneRadiance({c.axis, half_rad}, c.view, alpha, glm::dvec3(1), kConeSamples).x;
-      const double most = std::max(brightest(c, half_rad, alpha), want);
-      finding.add(std::abs(probed[i].specular * power - want) / std::max(most, 1e-30));
-    }
+    addLobes(context, cases, alpha, {half_deg, false}, finding);
   }
   return finding;
 }
