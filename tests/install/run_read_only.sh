@@ -20,12 +20,13 @@ if [ "$user" = 0 ]; then
   as_user=(setpriv --reuid $user --regid $user --clear-groups)
 fi
 
-# says PART VARIABLES...: with those variables ./run says PART and ends with code 2, for this PATH has no
-# compiler.
+# says PART VARIABLES...: with those variables ./run ${words[@]} says PART and ends with code 2, for this
+# PATH has no compiler.
+words=(info)
 says() {
   local part=$1 code=0 text
   text=$("${as_user[@]}" env -i PATH="$folder/bin" TMPDIR="$folder/tmp" "${@:2}" \
-    "$checkout/run" info 2>&1 </dev/null) || code=$?
+    "$checkout/run" "${words[@]}" 2>&1 </dev/null) || code=$?
   [ "$code" -eq 2 ] || fail "exit code $code instead of 2: $text"
   [[ $text == *"$part"* ]] || fail "no '$part' in: $text"
   if grep -qv '^run: ' <<<"$text"; then fail "not all of it are sentences: $text"; fi
@@ -34,6 +35,11 @@ says() {
 here="run: $checkout cannot be written: building in"
 says "$here $folder/home/.cache/glintmark/build-" HOME="$folder/home"
 says "is missing: cmake" HOME="$folder/home"
+cd "$checkout"
+words=()
+says "run: $checkout cannot be written: results go to $folder/home/.cache/glintmark/build-" HOME="$folder/home"
+words=(info)
+cd /
 says "$here $folder/home/caches/glintmark/build-" HOME=/nonexistent XDG_CACHE_HOME="$folder/home/caches"
 says "cannot be written either; set XDG_CACHE_HOME to a folder of your own" HOME=/proc/nowhere
 says "$here $folder/tmp/glintmark-$user/.cache/glintmark/build-"
