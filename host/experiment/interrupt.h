@@ -22,9 +22,9 @@ class RankSilent : public Interrupted {
 };
 
 /// While it lives, the first of kEndRequests only sets a flag; a second one ends the program at
-/// once, unless it is one of several ranks: their launcher kills those that take too long. What was
-/// ignored before, as nohup has it, stays ignored. A rank that waits for others after a signal,
-/// which may never come, throws RankSilent after a while.
+/// once, but for one that comes with it, or unless it is one of several ranks: their launcher kills
+/// those that take too long. What was ignored before, as nohup has it, stays ignored. A rank that
+/// waits for others after a signal, which may never come, throws RankSilent after a while.
 class InterruptGuard {
  public:
   InterruptGuard();
