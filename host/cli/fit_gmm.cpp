@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "host/cli/fit_commands.h"
+#include "host/cli/own_files.h"
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
 #include "host/core/progress.h"
@@ -84,6 +85,8 @@ void checkFitGmm(FitGmmCommand& command) {
       static_cast<MixtureSurface>(choice("--surface", command.surface, kSurfaces));
   if (command.on == "device" && allRanks().size() > 1)
     throw Error("--on device fits on one device; start it without mpirun, or share --on host");
+  requireOwnFiles({{"-o", command.output}, {"--picture", command.picture}},
+                  {command.source, command.scene, command.check});
   if (!allRanks().isFirst()) return;
   if (!command.output.empty()) requireWritableFile(command.output);
   if (!command.picture.empty()) requireWritablePicture(command.picture);

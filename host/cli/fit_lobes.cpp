@@ -7,6 +7,7 @@
 #include <span>
 
 #include "host/cli/fit_commands.h"
+#include "host/cli/own_files.h"
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
 #include "host/core/progress.h"
@@ -265,6 +266,7 @@ void checkFitLobes(const FitLobesOptions& options) {
     if (!(rays >= kLeastRays && rays <= kMostRays))
       throw Error(fmt::format("{} {} is not possible; it must be {:g} to {:g}", name, rays,
                               kLeastRays, kMostRays));
+  requireOwnFiles({{"--picture", options.picture}, {"--data", options.data}});
   if (!allRanks().isFirst()) return;
   if (!options.picture.empty()) requireWritablePicture(options.picture);
   requireWritableFolder(options.folder);

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "host/cli/fit_commands.h"
+#include "host/cli/own_files.h"
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
 #include "host/core/progress.h"
@@ -59,6 +60,7 @@ void checkFitLtc(const FitLtcCommand& command) {
                       "--size and --compare, or --anisotropic",
                       ANISO_NODES));
   }
+  requireOwnFiles({{"-o", command.output}, {"--picture", command.picture}}, {command.compare});
   if (allRanks().isFirst() && !command.output.empty()) requireWritableFile(command.output);
   if (allRanks().isFirst() && !command.picture.empty()) requireWritablePicture(command.picture);
   if (command.size < LTC_SIZE_MIN || command.size > LTC_SIZE_MAX) {

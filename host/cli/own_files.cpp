@@ -15,9 +15,10 @@ bool areOne(const std::string& a, const std::string& b) {
   if (a.empty() || b.empty()) return false;
   std::error_code error;
   if (fs::equivalent(a, b, error) && !error) return true;
-  const fs::path first = fs::weakly_canonical(a, error);
+  // Names of files to be stay as they are spelt, unless they are absolute.
+  const fs::path first = fs::weakly_canonical(fs::absolute(a), error);
   if (error) return false;
-  const fs::path second = fs::weakly_canonical(b, error);
+  const fs::path second = fs::weakly_canonical(fs::absolute(b), error);
   return !error && first == second;
 }
 
@@ -40,12 +41,14 @@ void requireOwnFiles(const std::vector<OutputFile>& outputs,
 
 std::vector<std::string> sceneInputs(const CommonOptions& common, const std::string& scene) {
   std::vector<std::string> values = {scene, common.mesh_file};
+  const fs::path beside = fs::path(scene).parent_path();
   for (const std::string& text : common.overrides) {
     const std::size_t sign = text.find('=');
     if (sign == std::string::npos) continue;
     std::string value = text.substr(sign + 1);
     if (value.size() > 1 && value.front() == value.back() && (value[0] == '"' || value[0] == '\''))
       value = value.substr(1, value.size() - 2);
+    values.push_back((beside / value).string());  // where a scene's files are looked for first
     values.push_back(std::move(value));
   }
   return values;

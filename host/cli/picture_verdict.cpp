@@ -41,11 +41,12 @@ PictureFault judgePicture(const Image& radiance, const Scene& scene, const View&
     return channels[0] != 0 || channels[1] != 0 || channels[2] != 0;
   };
   if (countPixels(radiance, is_lit) > 0) return PictureFault::kNone;
-  fmt::print(
-      stderr,
-      "note: nothing that view {} of {} shows reflects light to it, so the picture is black\n",
-      view.name, scene.name);
-  return PictureFault::kBlack;
+  const bool shows_sky = shows_environment && countPixels(radiance, [](const auto& channels) {
+                                                return channels[3] == 0;
+                                              }) > 0;
+  fmt::print(stderr, "note: nothing that view {} of {} shows reflects light to it, so {} black\n",
+             view.name, scene.name, shows_sky ? "its meshes are" : "the picture is");
+  return shows_sky ? PictureFault::kNone : PictureFault::kBlack;
 }
 
 }  // namespace glintmark

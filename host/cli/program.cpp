@@ -27,7 +27,8 @@ constexpr const char* kExamples =
     "  glintmark heatmap sponza --view grazing -o cells.png\n"
     "  glintmark bench zk16\n"
     "Every subcommand has its own --help.\n"
-    "Exit codes: 0 done, 1 a check failed, 2 bad usage or input, 3 no usable device.";
+    "Exit codes: 0 done, 1 a check failed or a picture is black, empty or not finite, 2 bad usage\n"
+    "or input, 3 no usable device, 129, 130 and 143 ended by SIGHUP, Ctrl-C and SIGTERM.";
 
 void addCommonOptions(Command app, CommonOptions& common) {
   app.option("--device", common.device, "OpenCL device: its index in 'info' or part of its name")

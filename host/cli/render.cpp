@@ -115,9 +115,18 @@ int runZoom(const CommonOptions& common, const RenderOptions& options,
   options.flags.noteIdle(scene, shading, common.quiet);
   Device device = openDevice(common);
   const double exposure = options.exposure.value_or(scene.post.exposure);
-  writePng(zoomStrip(device, scene, view, shading, options.zoom, exposure, common.threads),
+  bool is_finite = true, is_lit = false;
+  const auto judge = [&](const Image& radiance) {
+    is_finite = is_finite && isSane(radiance);
+    is_lit = is_lit || radianceFault(radiance).empty();
+  };
+  writePng(zoomStrip(device, scene, view, shading, options.zoom, exposure, common.threads, judge),
            options.output);
-  return kExitDone;
+  if (is_finite && is_lit) return kExitDone;
+  fmt::print(stderr, "note: {} of view {} of {}\n",
+             is_finite ? "no picture has any light" : "some pictures are not finite", view.name,
+             scene.name);
+  return kExitCheckFailed;
 }
 
 void checkRenderOptions(const RenderOptions& options) {

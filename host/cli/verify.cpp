@@ -148,7 +148,9 @@ void checkOptions(const VerifyOptions& options) {
     throw Error(fmt::format("--timeout {} is not a positive number of seconds", options.timeout_s));
   if (options.resume && logFile(options).empty())
     throw Error("--resume needs the --json or --junit file of the run that it carries on with");
-  requireOwnFiles({{"--json", options.json}, {"--junit", options.junit}});
+  requireOwnFiles({{"--json", options.json},
+                   {"--junit", options.junit},
+                   {"the log of --json", logFile(options).string()}});
   for (const std::string& file : {options.json, options.junit, logFile(options).string()})
     if (!file.empty()) requireWritableFile(file);
 }

@@ -41,7 +41,10 @@ void limitMemory(std::uint64_t bytes) {
 [[noreturn]] void runChild(const std::function<void(int channel)>& work, const ChildLimits& limits,
                            pid_t parent, int channel) {
   dieWithParent(parent, 1);
-  for (const int number : {SIGINT, SIGTERM, SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGXCPU})
+  // Requests to end that are ignored, as nohup has it, stay so.
+  for (const int number : {SIGINT, SIGTERM, SIGHUP})
+    if (signal(number, SIG_DFL) == SIG_IGN) signal(number, SIG_IGN);
+  for (const int number : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGXCPU})
     signal(number, SIG_DFL);
   limitResource(RLIMIT_CORE, 0);
   if (limits.cpu_s > 0) limitResource(RLIMIT_CPU, std::ceil(limits.cpu_s));
@@ -127,7 +130,7 @@ std::string ChildProcess::finish() {
   if (late_) return fmt::format("was not done after {:g} s", limits_.wall_s);
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
     return fmt::format("was not done after {:g} s of computing", limits_.cpu_s);
-  return status == 0 ? std::string() : howItEnded(status);
+  return status == 0 ? std::string() : (WIFSIGNALED(status) ? "was " : "") + howItEnded(status);
 }
 
 }  // namespace glintmark

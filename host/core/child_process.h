@@ -31,7 +31,7 @@ class ChildProcess {
   /// Up to `count` bytes of what the child writes; fewer only if it ended.
   std::size_t read(void* bytes, std::size_t count);
   /// Hands nothing more over and waits for its end. Empty, or how it ended if that was not by its
-  /// own will: "ended by signal 11 (Segmentation fault)", "was not done after 20 s".
+  /// own will: "was ended by signal 11 (Segmentation fault)", "was not done after 20 s".
   std::string finish();
 
  private:

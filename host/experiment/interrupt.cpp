@@ -1,5 +1,7 @@
 #include "host/experiment/interrupt.h"
 
+#include <signal.h>
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -63,8 +65,10 @@ InterruptGuard::InterruptGuard() {
   one_of_many = allRanks().size() > 1;
   whileWaiting(stopWaiting);
   for (std::size_t i = 0; i < std::size(kEndRequests); ++i) {
-    previous_[i] = std::signal(kEndRequests[i], noteSignal);
-    if (previous_[i] == SIG_IGN) std::signal(kEndRequests[i], SIG_IGN);
+    struct sigaction before = {};  // asked first: none that is ignored may be seen meanwhile
+    sigaction(kEndRequests[i], nullptr, &before);
+    previous_[i] =
+        before.sa_handler == SIG_IGN ? SIG_IGN : std::signal(kEndRequests[i], noteSignal);
   }
   if (one_of_many != 0) previous_continue_ = std::signal(SIGCONT, noteContinue);
 }

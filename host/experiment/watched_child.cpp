@@ -53,7 +53,8 @@ class HeldSignals {
   HeldSignals() {
     sigset_t held;
     sigemptyset(&held);
-    for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGCONT}) sigaddset(&held, number);
+    for (const int number : kEndRequests) sigaddset(&held, number);
+    sigaddset(&held, SIGCONT);
     sigprocmask(SIG_BLOCK, &held, &before_);
   }
   ~HeldSignals() { sigprocmask(SIG_SETMASK, &before_, nullptr); }

@@ -33,7 +33,8 @@ Image blank(const Image& like) {
 }  // namespace
 
 Image zoomStrip(Device& device, const Scene& scene, const View& view, const ShadingOptions& shading,
-                int octaves, double exposure, int thread_count) {
+                int octaves, double exposure, int thread_count,
+                const std::function<void(const Image& radiance)>& judge) {
   if (octaves < 1 || octaves > kMostZoomOctaves)
     throw Error(
         fmt::format("a zoom over {} octaves is not from 1 to {}", octaves, kMostZoomOctaves));
@@ -46,8 +47,9 @@ Image zoomStrip(Device& device, const Scene& scene, const View& view, const Shad
     FrameRenderer renderer(device, scene, zoomed(view, zoom), options, thread_count);
     renderer.prepare();
     renderer.shade();
-    row.emplace_back(fmt::format("2^{:g}", zoom),
-                     toneMap(renderer.readRadiance(), {.exposure = exposure}));
+    const Image radiance = renderer.readRadiance();
+    judge(radiance);
+    row.emplace_back(fmt::format("2^{:g}", zoom), toneMap(radiance, {.exposure = exposure}));
     if (row.size() == kPerRow) rows.push_back(pictureStrip(std::exchange(row, {})));
   }
   if (!row.empty()) {

@@ -26,7 +26,7 @@ double mebibytes(unsigned long long bytes) {
 }
 
 // Memory in large pages, if the system gives them; empty if it has none. A pixel's texels lie all
-// over a chain of mixtures, and small pages cost a frame up to an eighth of its time in look-ups of
+// over a chain of mixtures, and small pages cost a frame up to a tenth of its time in look-ups of
 // addresses.
 std::shared_ptr<void> largePages([[maybe_unused]] std::size_t bytes) {
 #ifdef MADV_HUGEPAGE

@@ -64,12 +64,13 @@ std::optional<Launched> countedRanks() {
   return std::nullopt;
 }
 
-// Open MPI does not start without a home, which users of containers may lack; nothing else is to
-// take this one for theirs.
+// Open MPI does not start without a home, which users of containers may lack. It loads modules from
+// there, so it must be a folder that no other user can write; nothing else is to take it for
+// theirs.
 class HomeForMpi {
  public:
   HomeForMpi() : lent_(std::getenv("HOME") == nullptr) {
-    if (lent_) setenv("HOME", "/tmp", 1);
+    if (lent_) setenv("HOME", "/", 1);
   }
   ~HomeForMpi() {
     if (lent_) unsetenv("HOME");

@@ -129,7 +129,7 @@ void checkMap(const Image& map) {
   }
 }
 
-/// The same map in finer pixels, where its own are large parts of the sky.
+// The same map in finer pixels, where its own are large parts of the sky.
 Image refined(const Image& map) {
   const int across = (kLeastCutWidth_px + map.width - 1) / map.width;
   const int down = (kLeastCutHeight_px + map.height - 1) / map.height;

@@ -11,7 +11,8 @@
 namespace glintmark {
 namespace {
 
-constexpr Range kFraction{0, 1, true};
+// Below, squares of a microdetail's roughness are lost in single precision.
+constexpr Range kMicroRoughness{1e-6, 1};
 // Single precision holds lobes of no smaller slopes: their light goes missing, at 1e-8 a third.
 constexpr Range kSurfaceRoughness{1e-6, 1};
 constexpr Range kReflectance{0, 1};
@@ -98,7 +99,7 @@ Material readMaterial(SceneTable& table, const SceneRequest& request) {
   material.name = table.text("name");
   readType(table, material);
   const glm::dvec2 alpha_g = table.vector2("global_roughness", glm::dvec2(0.3), kSurfaceRoughness);
-  const glm::dvec2 micro = table.vector2("micro_roughness", glm::dvec2(0.1), kFraction);
+  const glm::dvec2 micro = table.vector2("micro_roughness", glm::dvec2(0.1), kMicroRoughness);
   material.params.surface.alpha_g = toFloat2(alpha_g);
   material.params.glints.alpha_l = toFloat2(alpha_g * micro);
   material.params.glints.density =

@@ -77,7 +77,7 @@ void serve(const std::vector<Check>& checks, const CheckProcess::Open& open, int
   dieWithParent(parent, kExitCheckFailed);
   signal(SIGINT, SIG_IGN);
   signal(SIGHUP, SIG_IGN);
-  signal(SIGTERM, SIG_DFL);
+  if (signal(SIGTERM, SIG_DFL) == SIG_IGN) signal(SIGTERM, SIG_IGN);
   try {
     serve(checks, open, socket);
   } catch (const Error& error) {

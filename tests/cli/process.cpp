@@ -55,8 +55,7 @@ std::string findMpirun() {
 std::vector<std::string> mpirunEnvironment() {
   std::vector<std::string> entries = {"OMPI_ALLOW_RUN_AS_ROOT=1",
                                       "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"};
-  if (std::getenv("HOME") == nullptr)
-    entries.push_back("HOME=" + std::filesystem::temp_directory_path().string());
+  if (std::getenv("HOME") == nullptr) entries.emplace_back("HOME=/");
   return entries;
 }
 
@@ -152,8 +151,7 @@ bool canShareRanks() {
 }
 
 int openMpiVersion() {
-  const std::string home = std::filesystem::temp_directory_path();
-  FILE* said = popen(("HOME='" + home + "' " + findMpirun() + " --version").c_str(), "r");
+  FILE* said = popen(("HOME=/ " + findMpirun() + " --version").c_str(), "r");
   int major = 0;
   if (said == nullptr || std::fscanf(said, "mpirun (Open MPI) %d", &major) != 1) major = 0;
   if (said != nullptr) pclose(said);

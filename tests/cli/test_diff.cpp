@@ -82,6 +82,30 @@ TEST(OwnFiles, AreWrittenOverNothingThatIsRead) {
   const ProcessResult twice = runGlintmark({"diff", a, a, "-o", b, "--json", b});
   EXPECT_EQ(twice.exit_code, 2);
   EXPECT_NE(twice.err.find("is the file of -o too"), std::string::npos) << twice.err;
+  // Neither is there yet, and one is spelt otherwise.
+  const std::string near = std::filesystem::proximate(b).string();
+  ASSERT_FALSE(std::filesystem::exists(b));
+  const ProcessResult spelt = runGlintmark({"diff", a, a, "-o", near, "--json", "./" + near});
+  EXPECT_EQ(spelt.exit_code, 2) << spelt.err;
+}
+
+TEST(OwnFiles, AreNoneThatASceneReadsBesideItsFile) {
+  const TempFolder folder;
+  const std::filesystem::path sky = folder / "sky.exr", scene = folder / "s.toml";
+  writeExr(Image(8, 8, 3), sky);
+  writeFile(scene, readFile(GLINTMARK_SOURCE_DIR "/scenes/screen_plane.toml"));
+  const std::string before = readFile(sky);
+  const ProcessResult result =
+      runGlintmark({"render", scene, "--set", "environment.image='sky.exr'", "-o", sky});
+  EXPECT_EQ(result.exit_code, 2) << result.err;
+  EXPECT_NE(result.err.find("written over what is read"), std::string::npos) << result.err;
+  EXPECT_EQ(readFile(sky), before);
+  const ProcessResult fit = runGlintmark({"fit", "gmm", sky, "-o", sky});
+  EXPECT_EQ(fit.exit_code, 2);
+  EXPECT_NE(fit.err.find("written over what is read"), std::string::npos) << fit.err;
+  const ProcessResult log = runGlintmark({"verify", "--only", "^device/", "--json",
+                                          folder / "v.json", "--junit", folder / "v.json.partial"});
+  EXPECT_EQ(log.exit_code, 2) << log.err;
 }
 
 }  // namespace

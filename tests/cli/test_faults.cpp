@@ -133,6 +133,7 @@ TEST(Faults, AFolderInUseIsLeftAlone) {
   EXPECT_NE(second.err.find("is in use by another run (process "), std::string::npos) << second.err;
   // A terminal that closes is a request to end; timeout(1), say, makes each request twice.
   first.send(SIGHUP);
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));  // or the system makes one of both
   first.send(SIGHUP);
   const ProcessResult ended = first.wait();
   EXPECT_EQ(ended.exit_code, 129);

@@ -100,6 +100,25 @@ TEST(Render, WhatNoLightReachesIsNotMeasured) {
       << result.out << result.err;
 }
 
+TEST(Render, AZoomWithoutLightSaysSo) {
+  const TempFolder folder;
+  const ProcessResult result =
+      runGlintmark({"render", "screen_plane", "--zoom", "1", "-o", folder / "a.png", "--size",
+                    "16x16", "--set", "light.0.elevation_deg=-50"});
+  EXPECT_EQ(result.exit_code, 1) << result.err;
+  EXPECT_NE(result.err.find("no picture has any light"), std::string::npos) << result.err;
+}
+
+// Meshes that reflect nothing before a sky are a picture.
+TEST(Render, BlackMeshesBeforeASkyAreNoted) {
+  const TempFolder folder;
+  const ProcessResult result =
+      runGlintmark({"render", "hero", "-o", folder / "a.png", "--size", "64x36", "--set",
+                    "material.0.intensity=0", "--set", "material.0.albedo=0"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("its meshes are black"), std::string::npos) << result.err;
+}
+
 constexpr const char* kAway = "view.0={name=\"steep\", eye=[0, 5, 0], target=[0, 9, 1]}";
 
 TEST(Render, AViewOfNothingSaysSo) {

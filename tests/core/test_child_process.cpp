@@ -34,8 +34,8 @@ TEST(ChildProcess, HandsBytesBack) {
 }
 
 TEST(ChildProcess, SaysHowItEnded) {
-  EXPECT_EQ(endOf([](int) { std::raise(SIGSEGV); }), "ended by signal 11 (Segmentation fault)");
-  EXPECT_EQ(endOf([](int) { std::raise(SIGKILL); }), "ended by signal 9 (Killed)");
+  EXPECT_EQ(endOf([](int) { std::raise(SIGSEGV); }), "was ended by signal 11 (Segmentation fault)");
+  EXPECT_EQ(endOf([](int) { std::raise(SIGKILL); }), "was ended by signal 9 (Killed)");
   EXPECT_EQ(endOf([](int) { throw std::runtime_error("no"); }), "ended with exit code 1");
   EXPECT_EQ(endOf([](int out) { writeText(out, "x"); }), "");
 }
@@ -68,7 +68,7 @@ TEST(ChildProcess, SignalsThatThisProcessCatchesEndTheChild) {
   const auto before = std::signal(SIGTERM, [](int) {});
   const std::string end = endOf([](int) { std::raise(SIGTERM); });
   std::signal(SIGTERM, before);
-  EXPECT_EQ(end, "ended by signal 15 (Terminated)");
+  EXPECT_EQ(end, "was ended by signal 15 (Terminated)");
 }
 
 }  // namespace

@@ -102,7 +102,7 @@ TEST(IsolatedImage, FaultsAreSentences) {
   EXPECT_EQ(openIsolated(FakeCodec(Fault::kNone), "name", {"png", " bytes"}, fault), nullptr);
   EXPECT_EQ(fault, "png bytes");
   const std::string opening = messageOf<Error>([&] { openFake(Fault::kCrashAtOpening, fault); });
-  EXPECT_NE(opening.find("ended by signal 6"), std::string::npos) << opening;
+  EXPECT_NE(opening.find("was ended by signal 6"), std::string::npos) << opening;
   std::vector<float> pixels(10);
   EXPECT_EQ(openFake(Fault::kWarning, fault)->read(0, 0, 1, pixels), "it is odd");
   EXPECT_NE(openFake(Fault::kMemory, fault)->read(0, 0, 1, pixels).find("memory"),
@@ -110,7 +110,7 @@ TEST(IsolatedImage, FaultsAreSentences) {
   const auto image = openFake(Fault::kCrashAtReading, fault);
   const std::string reading = messageOf<Error>([&] { image->read(0, 0, 1, pixels); });
   EXPECT_NE(reading.find("/proc/self/exe"), std::string::npos) << reading;
-  EXPECT_NE(reading.find("ended by signal 11"), std::string::npos) << reading;
+  EXPECT_NE(reading.find("was ended by signal 11"), std::string::npos) << reading;
 }
 
 }  // namespace

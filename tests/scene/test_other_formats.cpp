@@ -25,7 +25,7 @@ TEST(OtherFormats, WhatMakesAssimpCrashIsASentence) {
     EXPECT_EQ(importMesh(file).mesh.triangleCount(), 2u);
   } catch (const Error& error) {
     expectMessage(error.what(), {"mesh.raw: cannot be read as a mesh: assimp, which reads such "
-                                 "files, ended by signal"});
+                                 "files, was ended by signal"});
   }
 }
 

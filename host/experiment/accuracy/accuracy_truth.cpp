@@ -114,6 +114,8 @@ const SampledSweep::Truth& SampledSweep::keepTruth(std::size_t index, const Accu
   made.coverage = truth.images.mean;
   made.row = coveredPixels(truth.images.mean);
   made.fault = radianceFault(truth.images.mean);
+  for (const Image& replicate : truth.replicates)  // what one has of bad values, a mean may hide
+    if (made.fault.empty() && !isSane(replicate)) made.fault = radianceFault(replicate);
   if (made.fault.empty())
     made.standard_error =
         errorOfMean(truth.images.mean, truth.replicates, [&](const Image& off, const Image& mean) {
