@@ -82,13 +82,16 @@ TEST(FolderLock, OnlyFilesOfTheDeadAreRemoved) {
   const pid_t child = fork();
   if (child == 0) _exit(0);
   ASSERT_EQ(waitpid(child, nullptr, 0), child);
-  const std::string dead = ".results.json." + std::to_string(child) + ".tmp",
-                    own = ".results.json." + std::to_string(getpid()) + ".tmp";
-  for (const std::string& name : {dead, own, std::string(".other.tmp"), std::string("a.1x.tmp")})
+  const std::string random = ".results.json.0123456789abcdef.",
+                    dead = random + std::to_string(child) + ".tmp",
+                    own = random + std::to_string(getpid()) + ".tmp",
+                    another_programs = ".results.json." + std::to_string(child) + ".tmp";
+  for (const std::string& name :
+       {dead, own, another_programs, std::string(".other.tmp"), std::string("a.1x.tmp")})
     writeFile(folder / name, "x");
   removeAbandonedFiles(folder.path());
   EXPECT_FALSE(std::filesystem::exists(folder / dead));
-  EXPECT_EQ(folder.entryCount(), 3u);
+  EXPECT_EQ(folder.entryCount(), 4u);
 }
 
 }  // namespace
