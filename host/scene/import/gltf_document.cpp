@@ -69,7 +69,8 @@ std::string keyOf(const nlohmann::json& reference) {
   return reference.is_string() ? reference.get<std::string>() : reference.dump();
 }
 
-/// For messages.
+}  // namespace
+
 std::string shown(std::string text) {
   constexpr std::size_t kMost_bytes = 80;
   if (text.size() > kMost_bytes) text = text.substr(0, kMost_bytes) + "...";
@@ -77,8 +78,6 @@ std::string shown(std::string text) {
       text, [](unsigned char c) { return c < ' '; }, '?');
   return text;
 }
-
-}  // namespace
 
 std::string percentDecoded(std::string_view text) {
   std::string out;

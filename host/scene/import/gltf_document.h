@@ -9,6 +9,9 @@
 
 namespace glintmark {
 
+/// A text of a file as messages show it: 80 bytes at most, and none that steers a terminal.
+std::string shown(std::string text);
+
 /// glTF 1.0 or 2.0, as JSON or in a GLB container of version 1 or 2. Functions throw Error, naming
 /// the file and what in it is wrong. [Khronos, "glTF 2.0 Specification"]
 class GltfDocument {

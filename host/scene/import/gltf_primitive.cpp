@@ -18,7 +18,6 @@ constexpr char kDraco[] = "KHR_draco_mesh_compression";
 constexpr std::size_t kBytesPerVertex = 200, kBytesHeld = 52;  // here and in what follows; here
 // Memory that a file may take before the machine is asked again whether there is more.
 constexpr std::size_t kUnasked_bytes = 64 << 20;
-constexpr std::size_t kMostOfName = 80;  // of its letters, in messages
 
 /// Turns normals as the matrix turns planes: its cofactors, which singular matrices have too. The
 /// sign keeps the side that the file gives a normal.
@@ -60,8 +59,7 @@ std::uint32_t GltfPrimitives::partOf(const Json& primitive, GltfUv& uv) {
   }
   const std::string key = material->is_string() ? material->get<std::string>() : material->dump();
   const auto found = numbers_.find(key);
-  if (found == numbers_.end())
-    document_.fail(fmt::format("there is no material {}", key.substr(0, kMostOfName)));
+  if (found == numbers_.end()) document_.fail(fmt::format("there is no material {}", shown(key)));
   uv = uv_of_material_[found->second];
   return found->second;
 }
