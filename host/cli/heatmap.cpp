@@ -64,6 +64,10 @@ int runView(const CommonOptions& common, const HeatmapCommand& command,
   Device device = openDevice(common);
   const CountedCells counted = countCells(device, scene, view, shading, common.threads);
 
+  if (counted.counts.glint_px == 0)
+    throw Error(
+        fmt::format("no pixel of view {} of {} shows lit glints, so there are no cells to count",
+                    view.name, scene.name));
   const std::string name = scene.name + "/" + view.name;
   const std::string unit = visitedUnit(shading.method);
   if (!command.picture.empty()) {

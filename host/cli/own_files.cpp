@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <filesystem>
+#include <fstream>
 
 #include "host/core/error.h"
 
@@ -15,11 +17,33 @@ bool areOne(const std::string& a, const std::string& b) {
   if (a.empty() || b.empty()) return false;
   std::error_code error;
   if (fs::equivalent(a, b, error) && !error) return true;
+  if (fs::path(a).filename() != fs::path(b).filename()) return false;
   // Names of files to be stay as they are spelt, unless they are absolute.
-  const fs::path first = fs::weakly_canonical(fs::absolute(a), error);
+  const fs::path first = fs::weakly_canonical(fs::absolute(a, error), error);
   if (error) return false;
-  const fs::path second = fs::weakly_canonical(fs::absolute(b), error);
+  const fs::path second = fs::weakly_canonical(fs::absolute(b, error), error);
   return !error && first == second;
+}
+
+// Texts between quotes of a scene file that may name a file: what is read has an extension. What is
+// no scene has none; that is said by whoever reads it.
+std::vector<std::string> quotedNames(const fs::path& file) {
+  constexpr std::uintmax_t kMost_bytes = 64 << 20;
+  std::error_code error;
+  if (file.extension() != ".toml" || !fs::is_regular_file(file, error) ||
+      fs::file_size(file, error) > kMost_bytes)
+    return {};
+  std::vector<std::string> names;
+  std::ifstream lines(file);
+  for (std::string line; std::getline(lines, line);)
+    for (std::size_t begin = line.find_first_of("\"'"); begin != std::string::npos;) {
+      const std::size_t end = line.find(line[begin], begin + 1);
+      if (end == std::string::npos) break;
+      std::string text = line.substr(begin + 1, end - begin - 1);
+      if (text.find('.') != std::string::npos) names.push_back(std::move(text));
+      begin = line.find_first_of("\"'", end + 1);
+    }
+  return names;
 }
 
 }  // namespace
@@ -40,18 +64,21 @@ void requireOwnFiles(const std::vector<OutputFile>& outputs,
 }
 
 std::vector<std::string> sceneInputs(const CommonOptions& common, const std::string& scene) {
-  std::vector<std::string> values = {scene, common.mesh_file};
-  const fs::path beside = fs::path(scene).parent_path();
+  std::vector<std::string> names = quotedNames(scene);
   for (const std::string& text : common.overrides) {
     const std::size_t sign = text.find('=');
     if (sign == std::string::npos) continue;
     std::string value = text.substr(sign + 1);
     if (value.size() > 1 && value.front() == value.back() && (value[0] == '"' || value[0] == '\''))
       value = value.substr(1, value.size() - 2);
-    values.push_back((beside / value).string());  // where a scene's files are looked for first
-    values.push_back(std::move(value));
+    names.push_back(std::move(value));
   }
-  return values;
+  std::vector<std::string> files = {scene, common.mesh_file};
+  for (const std::string& name : names) {
+    files.push_back((fs::path(scene).parent_path() / name).string());  // looked for there first
+    files.push_back(name);
+  }
+  return files;
 }
 
 }  // namespace glintmark

@@ -17,8 +17,8 @@ struct OutputFile {
 void requireOwnFiles(const std::vector<OutputFile>& outputs,
                      const std::vector<std::string>& inputs = {});
 
-/// What the command line names of what makes a scene: its file, a mesh, values of --set. Files that
-/// a scene file names are not among them.
+/// What may be a file of those that make a scene: its own, a mesh, values of --set and texts of its
+/// file. What a mesh file names is not among them.
 std::vector<std::string> sceneInputs(const CommonOptions& common, const std::string& scene);
 
 }  // namespace glintmark

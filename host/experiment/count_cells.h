@@ -13,7 +13,7 @@ struct CountedCells {
 };
 
 /// Renders the view with the counting build; `options.count_cells` is switched on. Throws Error if
-/// no pixel shows lit glints, since there would be nothing to count.
+/// the scene has no glint material, since there would be nothing to count.
 CountedCells countCells(Device& device, const Scene& scene, const View& view,
                         ShadingOptions options, int thread_count);
 

@@ -99,6 +99,11 @@ TEST(OwnFiles, AreNoneThatASceneReadsBesideItsFile) {
       runGlintmark({"render", scene, "--set", "environment.image='sky.exr'", "-o", sky});
   EXPECT_EQ(result.exit_code, 2) << result.err;
   EXPECT_NE(result.err.find("written over what is read"), std::string::npos) << result.err;
+  writeFile(scene, readFile(GLINTMARK_SOURCE_DIR "/scenes/screen_plane.toml") +
+                       "\n[environment]\nimage = \"sky.exr\"\n");
+  const ProcessResult named = runGlintmark({"render", scene, "-o", sky});
+  EXPECT_EQ(named.exit_code, 2) << named.err;
+  EXPECT_NE(named.err.find("written over what is read"), std::string::npos) << named.err;
   EXPECT_EQ(readFile(sky), before);
   const ProcessResult fit = runGlintmark({"fit", "gmm", sky, "-o", sky});
   EXPECT_EQ(fit.exit_code, 2);
