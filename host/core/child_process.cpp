@@ -41,9 +41,8 @@ void limitMemory(std::uint64_t bytes) {
 [[noreturn]] void runChild(const std::function<void(int channel)>& work, const ChildLimits& limits,
                            pid_t parent, int channel) {
   dieWithParent(parent, 1);
-  // Requests to end that are ignored, as nohup has it, stay so.
-  for (const int number : {SIGINT, SIGTERM, SIGHUP})
-    if (signal(number, SIG_DFL) == SIG_IGN) signal(number, SIG_IGN);
+  constexpr int kRequests[] = {SIGINT, SIGTERM, SIGHUP};
+  endByDefault(kRequests);
   for (const int number : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGXCPU})
     signal(number, SIG_DFL);
   limitResource(RLIMIT_CORE, 0);

@@ -16,6 +16,11 @@ void dieWithParent(pid_t parent, int exit_code) {
   if (getppid() != parent) _exit(exit_code);
 }
 
+void endByDefault(std::span<const int> signals) {
+  for (const int number : signals)
+    if (signal(number, SIG_DFL) == SIG_IGN) signal(number, SIG_IGN);
+}
+
 int awaitProcess(pid_t child) {
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {

@@ -2,6 +2,7 @@
 #pragma once
 #include <sys/types.h>
 
+#include <span>
 #include <string>
 
 namespace glintmark {
@@ -9,6 +10,10 @@ namespace glintmark {
 /// Called in a child right after the fork: it dies with `parent`, and if that has died before the
 /// call it ends now, with the exit code that is given.
 void dieWithParent(pid_t parent, int exit_code);
+
+/// For these signals: what they do to a program that catches none. Those that are ignored, as nohup
+/// has it, stay so.
+void endByDefault(std::span<const int> signals);
 
 /// Waits for a child, through signals: the status that waitpid() gives.
 int awaitProcess(pid_t child);

@@ -41,12 +41,6 @@ void handOnSignals(bool to_another_group) {
   if (to_another_group) sigaction(SIGCONT, &action, nullptr);
 }
 
-// What was ignored, as nohup has it, stays so.
-void endByDefault() {
-  for (const int number : kEndRequests)
-    if (signal(number, SIG_DFL) == SIG_IGN) signal(number, SIG_IGN);
-}
-
 // The signals wait meanwhile, so that none is lost before the child is known.
 class HeldSignals {
  public:
@@ -76,7 +70,7 @@ pid_t startChild(bool own_group) {
     handOnSignals(own_group);
   } else if (child == 0) {
     if (own_group) setpgid(0, 0);
-    endByDefault();
+    endByDefault(kEndRequests);
     dieWithParent(parent, kExitCheckFailed);
   }
   return child;

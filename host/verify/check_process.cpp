@@ -77,7 +77,8 @@ void serve(const std::vector<Check>& checks, const CheckProcess::Open& open, int
   dieWithParent(parent, kExitCheckFailed);
   signal(SIGINT, SIG_IGN);
   signal(SIGHUP, SIG_IGN);
-  if (signal(SIGTERM, SIG_DFL) == SIG_IGN) signal(SIGTERM, SIG_IGN);
+  constexpr int kRequests[] = {SIGTERM};
+  endByDefault(kRequests);
   try {
     serve(checks, open, socket);
   } catch (const Error& error) {
