@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "host/scene/import_mesh.h"
 #include "tests/scene/scene_test_tools.h"
 
 namespace glintmark {
@@ -79,6 +80,19 @@ inline GltfText quadText() {
         {{{"attributes", {{"POSITION", positions}, {"NORMAL", normals}, {"TEXCOORD_0", uvs}}},
           {"indices", indices}}}}}};
   return text;
+}
+
+/// The mesh that the importer makes of it.
+inline PartMesh gltf(GltfText text, const ImportOptions& options = {}) {
+  const TemporaryFolder folder;
+  return importMesh(text.write(folder), options);
+}
+
+/// What the importer says against it.
+inline std::string gltfError(GltfText text) {
+  const TemporaryFolder folder;
+  const std::string file = text.write(folder);
+  return errorOf([&] { importMesh(file); });
 }
 
 }  // namespace glintmark

@@ -2,22 +2,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "host/scene/import_mesh.h"
 #include "tests/scene/gltf_text.h"
 
 namespace glintmark {
 namespace {
-
-PartMesh imported(GltfText text) {
-  const TemporaryFolder folder;
-  return importMesh(text.write(folder));
-}
-
-std::string errorOfImport(GltfText text) {
-  const TemporaryFolder folder;
-  const std::string file = text.write(folder);
-  return errorOf([&] { importMesh(file); });
-}
 
 /// The quad whose lower edge hangs on joint 0 and whose upper edge hangs on joint 1, nodes 1 and 2,
 /// below a node 3 that is no joint. The mesh's own node would move it.
@@ -53,7 +41,7 @@ void expectCorner(const TriangleMesh& mesh, float u, float v, const glm::vec3& w
 }
 
 TEST(GltfSkins, JointsNotNodesMoveTheMesh) {
-  const PartMesh mesh = imported(skinnedQuad());
+  const PartMesh mesh = gltf(skinnedQuad());
   for (const float u : {0.0f, 1.0f})
     for (const float v : {0.0f, 1.0f}) expectCorner(mesh.mesh, u, v, {u, v, 0});
   ASSERT_EQ(mesh.notes.size(), 1u);
@@ -66,7 +54,7 @@ TEST(GltfSkins, ThePoseIsThatOfTheNodes) {
   text.json["nodes"][2]["translation"] = {0, 0, 5};
   const double half = std::sqrt(0.5);  // a quarter turn about x: y to z
   text.json["nodes"][1]["rotation"] = {half, 0, 0, half};
-  const TriangleMesh mesh = imported(text).mesh;
+  const TriangleMesh mesh = gltf(text).mesh;
   expectCorner(mesh, 1, 0, {2, 0, 0});
   expectCorner(mesh, 1, 1, {2, 2, 10});
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
@@ -87,7 +75,7 @@ TEST(GltfSkins, InverseBindMatricesUndoThePlacesOfJoints) {
     text.json["skins"][0]["inverseBindMatrices"] =
         text.add<float>("MAT4", 5126, 2, {s, 0, 0, 0, 0, s, 0, 0, 0, 0, s, 0, -3, 0,  0, 1,
                                           s, 0, 0, 0, 0, s, 0, 0, 0, 0, s, 0, 0,  -1, 0, 1});
-    const TriangleMesh mesh = imported(text).mesh;
+    const TriangleMesh mesh = gltf(text).mesh;
     for (const float u : {0.0f, 1.0f})
       for (const float v : {0.0f, 1.0f}) expectCorner(mesh, u, v, {u, v, 0});
   }
@@ -105,7 +93,7 @@ TEST(GltfSkins, WeightsBlendJointsOfAllSets) {
   text.primitive()["attributes"]["WEIGHTS_0"] = text.add("VEC4", 5121, 4, quarter, 0, true);
   text.primitive()["attributes"]["JOINTS_1"] = text.add("VEC4", 5123, 4, joints);
   text.primitive()["attributes"]["WEIGHTS_1"] = text.add("VEC4", 5121, 4, rest, 0, true);
-  const TriangleMesh mesh = imported(text).mesh;
+  const TriangleMesh mesh = gltf(text).mesh;
   expectCorner(mesh, 0, 0, {0, 0, 7});
   expectCorner(mesh, 0, 1, {0, 1, 9});  // its first set has joint 1 too
 }
@@ -115,13 +103,13 @@ TEST(GltfSkins, WithoutWeightTheFirstJointHolds) {
   text.json["nodes"][2]["translation"] = {0, 0, 9};
   text.primitive()["attributes"]["WEIGHTS_0"] =
       text.add("VEC4", 5121, 4, std::vector<std::uint8_t>(16, 0), 0, true);
-  expectCorner(imported(text).mesh, 0, 1, {0, 1, 9});
+  expectCorner(gltf(text).mesh, 0, 1, {0, 1, 9});
 }
 
 TEST(GltfSkins, MirroringJointsKeepTheFront) {
   GltfText text = skinnedQuad();
   text.json["nodes"][3]["scale"] = {1, -1, 1};
-  const TriangleMesh mesh = imported(text).mesh;
+  const TriangleMesh mesh = gltf(text).mesh;
   for (const glm::uvec3& t : mesh.triangles) {
     const glm::vec3 p = mesh.positions[t.x];
     const glm::vec3 front = glm::cross(mesh.positions[t.y] - p, mesh.positions[t.z] - p);
@@ -133,14 +121,14 @@ TEST(GltfSkins, MirroringJointsKeepTheFront) {
 TEST(GltfSkins, AMeshWithoutJointsIsMovedByItsNode) {
   GltfText text = skinnedQuad();
   text.primitive()["attributes"].erase("JOINTS_0");
-  expectCorner(imported(text).mesh, 0, 0, {7, 0, 0});
+  expectCorner(gltf(text).mesh, 0, 0, {7, 0, 0});
 }
 
 TEST(GltfSkins, WhatIsWrongIsSaid) {
   const auto changed = [](const std::function<void(GltfText&)>& change) {
     GltfText text = skinnedQuad();
     change(text);
-    return errorOfImport(text);
+    return gltfError(text);
   };
   expectMessage(changed([](GltfText& t) { t.json["nodes"][0]["skin"] = 4; }),
                 {"there is no 4 in its skins"});
