@@ -4,12 +4,16 @@
 
 #if WIDTH == 1
 typedef float probe_float;
+#define FIRST(vector) (vector)
 #elif WIDTH == 4
 typedef float4 probe_float;
 #elif WIDTH == 8
 typedef float8 probe_float;
 #else
 typedef float16 probe_float;
+#endif
+#ifndef FIRST
+#define FIRST(vector) ((vector).s0)
 #endif
 
 #define OFFSET_OF(object, member) ((uint)((char*)&(object).member - (char*)&(object)))
@@ -48,7 +52,8 @@ __kernel void probeTypeOffsets(__global uint* out) {
 // twelve still leave registers to spare. 2 * 12 * WIDTH operations per round and work-item.
 // With a = b = 0.5 every chain ends at exactly 1 after some 40 rounds, so that the answer, twelve,
 // can be checked; no chain meets infinities or denormals. The seeds come from memory so that no
-// compiler knows them.
+// compiler knows them, and neither that none is negative, all the same number of rounds: PoCL 7
+// turns a loop of one length for all work-items inside out and keeps the chains in memory.
 __kernel void probeFma(__global probe_float* inout, uint rounds, float a, float b) {
   const uint id = (uint)get_global_id(0);
   const probe_float va = (probe_float)(a), vb = (probe_float)(b);
@@ -56,7 +61,8 @@ __kernel void probeFma(__global probe_float* inout, uint rounds, float a, float 
   probe_float x0 = seed, x1 = seed + 1.0f, x2 = seed + 2.0f, x3 = seed + 3.0f;
   probe_float x4 = seed + 4.0f, x5 = seed + 5.0f, x6 = seed + 6.0f, x7 = seed + 7.0f;
   probe_float x8 = seed + 8.0f, x9 = seed + 9.0f, x10 = seed + 10.0f, x11 = seed + 11.0f;
-  for (uint i = 0; i < rounds; ++i) {
+  const uint own_rounds = rounds + (FIRST(seed) < 0.0f ? 1u : 0u);
+  for (uint i = 0; i < own_rounds; ++i) {
     x0 = fma(x0, va, vb);
     x1 = fma(x1, va, vb);
     x2 = fma(x2, va, vb);
