@@ -1,6 +1,8 @@
 #include "host/filter/mip_texels.h"
 
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <bit>
@@ -9,6 +11,12 @@
 #include "host/core/error.h"
 
 namespace glintmark {
+namespace {
+
+using TexelRange = tbb::blocked_range<std::size_t>;
+constexpr std::size_t kTexelsAtOnce = 65536;
+
+}  // namespace
 
 int MipTexels::levelWidth(int level) const {
   return std::max(1, static_cast<int>(layout.width >> level));
@@ -49,6 +57,12 @@ MipTexels makeMipTexels(int width_px, int height_px, int vectors) {
   MipTexels result{makeMipTexture(width_px, height_px), vectors, {}};
   const int last = static_cast<int>(result.layout.level_count) - 1;
   result.texels.resize((result.layout.first[last] + std::size_t{1}) * vectors);
+  // On all threads: the first to touch a page waits for it.
+  tbb::parallel_for(TexelRange(0, result.texels.size(), kTexelsAtOnce),
+                    [&](const TexelRange& range) {
+                      std::fill(result.texels.data() + range.begin(),
+                                result.texels.data() + range.end(), float4{});
+                    });
   return result;
 }
 

@@ -1,6 +1,7 @@
 #include "host/filter/normal_moments.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <bit>
@@ -12,11 +13,20 @@
 namespace glintmark {
 namespace {
 
+// Of every texel, `stride` floats apart.
+template <class Channels>
+void writeMoments(const NormalMap& map, float* to, std::size_t stride, const Channels& write) {
+  const auto width = static_cast<std::size_t>(map.width_px);
+  tbb::parallel_for(0, map.height_px, [&](int y) {
+    const std::size_t first = static_cast<std::size_t>(y) * width;
+    for (std::size_t i = first; i < first + width; ++i) write(map.normals[i], to + i * stride);
+  });
+}
+
 template <class Channels>
 Image moments(const NormalMap& map, int channels, const Channels& write) {
   Image image(map.width_px, map.height_px, channels);
-  for (std::size_t i = 0; i < map.normals.size(); ++i)
-    write(map.normals[i], image.pixels.data() + i * static_cast<std::size_t>(channels));
+  writeMoments(map, image.pixels.data(), static_cast<std::size_t>(channels), write);
   return image;
 }
 
@@ -55,9 +65,8 @@ MipTexels mipMoments(const NormalMap& map, bool between_texels, int channels, in
   requireMemory(map.normals.size() * sizeof(float) * (4 * vectors + fine_floats) * 4 / 3,
                 fmt::format("the mip chain of map '{}'", map.name));
   MipTexels chain = makeMipTexels(map.width_px, map.height_px, vectors);
-  float* to = &chain.texels.data()->x;
-  for (std::size_t i = 0; i < map.normals.size(); ++i)
-    write(map.normals[i], to + i * std::size_t{4} * static_cast<std::size_t>(vectors));
+  writeMoments(map, &chain.texels.data()->x, std::size_t{4} * static_cast<std::size_t>(vectors),
+               write);
   if (!finer) {
     fillCoarserLevels(chain, channels);
     return chain;

@@ -52,7 +52,7 @@ std::string headBytes(const NormalMixtures& mixtures) {
 }
 
 std::string_view texelBytes(const NormalMixtures& mixtures) {
-  const std::vector<float4>& texels = mixtures.moments.texels;
+  const LargeArray<float4>& texels = mixtures.moments.texels;
   return {reinterpret_cast<const char*>(texels.data()), texels.size() * sizeof(float4)};
 }
 
@@ -92,7 +92,7 @@ std::optional<NormalMixtures> mixturesFromBytes(std::string_view bytes) {
       (layout.first[layout.level_count - 1] + std::size_t{1}) * header.lobes;
   if (bytes.size() != texels_size * sizeof(float4)) return std::nullopt;
   result.moments = makeMipTexels(header.width_px, header.height_px, header.lobes);
-  std::vector<float4>& texels = result.moments.texels;
+  LargeArray<float4>& texels = result.moments.texels;
   if (!take(bytes, texels.data(), texels.size())) return std::nullopt;
   return result;
 }
