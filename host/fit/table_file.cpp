@@ -46,8 +46,10 @@ FileHeader readHeader(const TableFormat& format, std::string_view bytes, const s
         format.command));
   }
   if (header.size < format.least_size || header.size > format.most_size || header.ndf > 2) {
-    throw Error(fmt::format("{} has a damaged header: size {} ({} to {}), distribution {} (0 to 2)",
-                            name, header.size, format.least_size, format.most_size, header.ndf));
+    throw Error(fmt::format(
+        "{} has a damaged header: size {} ({} to {}), distribution {} (0 to 2); "
+        "`{}` writes one",
+        name, header.size, format.least_size, format.most_size, header.ndf, format.command));
   }
   return header;
 }
@@ -84,8 +86,8 @@ TableContent parseTable(const TableFormat& format, std::string_view bytes,
   if (values.size() != expected) {
     std::string sides = fmt::format("{}", header.size);
     for (int axis = 1; axis < format.axes; ++axis) sides += fmt::format("x{}", header.size);
-    throw Error(fmt::format("{} has {} bytes, expected {} for a table of {}", name, bytes.size(),
-                            expected + sizeof(header), sides));
+    throw Error(fmt::format("{} has {} bytes, expected {} for a table of {}; `{}` writes one", name,
+                            bytes.size(), expected + sizeof(header), sides, format.command));
   }
   if (checksumOf(header, values) != header.checksum) {
     throw Error(
