@@ -1,20 +1,18 @@
 #include "host/filter/mip_texels.h"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <bit>
 #include <utility>
 
 #include "host/core/error.h"
+#include "host/filter/all_rows.h"
 
 namespace glintmark {
 namespace {
 
-using TexelRange = tbb::blocked_range<std::size_t>;
-constexpr std::size_t kTexelsAtOnce = 65536;
+constexpr std::size_t kPieceTexels = 65536;
 
 }  // namespace
 
@@ -58,11 +56,13 @@ MipTexels makeMipTexels(int width_px, int height_px, int vectors) {
   const int last = static_cast<int>(result.layout.level_count) - 1;
   result.texels.resize((result.layout.first[last] + std::size_t{1}) * vectors);
   // On all threads: the first to touch a page waits for it.
-  tbb::parallel_for(TexelRange(0, result.texels.size(), kTexelsAtOnce),
-                    [&](const TexelRange& range) {
-                      std::fill(result.texels.data() + range.begin(),
-                                result.texels.data() + range.end(), float4{});
-                    });
+  const std::size_t count = result.texels.size();
+  const auto pieces = static_cast<int>((count + kPieceTexels - 1) / kPieceTexels);
+  forAllRows(pieces, "a mip chain's memory", [&](int piece) {
+    const std::size_t first = static_cast<std::size_t>(piece) * kPieceTexels;
+    float4* const texels = result.texels.data() + first;
+    std::fill(texels, texels + std::min(kPieceTexels, count - first), float4{});
+  });
   return result;
 }
 

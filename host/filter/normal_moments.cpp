@@ -1,12 +1,12 @@
 #include "host/filter/normal_moments.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <bit>
 
 #include "host/core/free_memory.h"
+#include "host/filter/all_rows.h"
 #include "host/filter/interpolated_normals.h"
 #include "host/filter/mip_chain.h"
 
@@ -17,7 +17,7 @@ namespace {
 template <class Channels>
 void writeMoments(const NormalMap& map, float* to, std::size_t stride, const Channels& write) {
   const auto width = static_cast<std::size_t>(map.width_px);
-  tbb::parallel_for(0, map.height_px, [&](int y) {
+  forAllRows(map.height_px, fmt::format("the mip chain of map {}", map.name), [&](int y) {
     const std::size_t first = static_cast<std::size_t>(y) * width;
     for (std::size_t i = first; i < first + width; ++i) write(map.normals[i], to + i * stride);
   });
