@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "host/core/fnv1a.h"
+#include "host/core/free_memory.h"
 
 namespace glintmark {
 namespace {
@@ -98,8 +99,13 @@ std::optional<NormalMixtures> mixturesFromBytes(std::string_view bytes) {
 }
 
 std::optional<NormalMixtures> loadMixtures(const DiskCache& cache, const std::string& key) {
+  constexpr std::size_t kSmall_bytes = std::size_t{64} << 20;
   const auto bytes = cache.load(key, key);
-  return bytes ? mixturesFromBytes(*bytes) : std::nullopt;
+  if (!bytes) return std::nullopt;
+  // The entry and its copy lie side by side; a fit takes less.
+  const std::uint64_t free_bytes = bytes->size() > kSmall_bytes ? freeMemoryBytes() : 0;
+  if (free_bytes > 0 && free_bytes < bytes->size()) return std::nullopt;
+  return mixturesFromBytes(*bytes);
 }
 
 // In pieces, since a copy of a large map's would not fit the memory.

@@ -163,6 +163,17 @@ TEST_F(ImageFormats, TransparentWebpIsRefused) {
             std::string::npos);
 }
 
+TEST_F(ImageFormats, DpxOfColumnsIsRefused) {
+  for (const bool big : {false, true})
+    for (int orientation = 0; orientation < 8; ++orientation) {
+      std::string file(2048, '\0');
+      file.replace(0, 4, big ? "SDPX" : "XPDS");
+      file[768 + (big ? 1 : 0)] = static_cast<char>(orientation);
+      const std::string text = messageOf<Error>([&] { read("film.dpx", file); });
+      EXPECT_EQ(text.find("in columns") != std::string::npos, orientation >= 4) << text;
+    }
+}
+
 // Without the tag a sample has one bit; OpenImageIO reads it as if it had eight.
 TEST_F(ImageFormats, TiffWithoutBitsPerSampleIsRefused) {
   std::string file = tiffBytes(3, 2, 1, {1, 2, 3, 4, 5, 6});
