@@ -9,8 +9,10 @@
 
 #include "host/core/error.h"
 #include "host/experiment/all_tables.h"
+#include "host/fit/anisotropic_table.h"
 #include "host/fit/ltc_table.h"
 #include "host/mixture/mixture_cache.h"
+#include "host/mixture/mixture_file.h"
 #include "host/report/page/html_report.h"
 #include "host/report/record/comparison.h"
 #include "host/report/record/record_log.h"
@@ -82,6 +84,7 @@ void readScene(std::string_view bytes) {
     const PlannedScene planned = planScene(content, "scene.toml", request);
     require(!planned.scene.materials.empty() && !planned.scene.views.empty());
     require(planned.plan.build != nullptr);
+    for (const MapPlan& map : planned.maps) checkNormalMap(map.build());
   } catch (const Error&) {
   }
 }
@@ -138,6 +141,10 @@ void readTables(std::string_view bytes) {
       if (mixtures) require(mixtureBytes(*mixtures) == bytes);
     } else if (kind == 'l') {
       require(serializeLtcTable(parseLtcTable(bytes, "table")) == bytes);
+    } else if (kind == 'a') {
+      require(serializeAnisotropicTable(parseAnisotropicTable(bytes, "table")) == bytes);
+    } else if (kind == 'f') {
+      require(serializeMixtures(parseMixtures(bytes, "mixtures")) == bytes);
     } else if (kind == 's') {
       unpackSimulation(std::string(bytes), SimulationSettings{}, "checkpoint");
     }

@@ -11,6 +11,7 @@
 #include "host/cli/own_files.h"
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
+#include "host/core/free_memory.h"
 #include "host/core/progress.h"
 #include "host/core/unknown_name.h"
 #include "host/experiment/interrupt.h"
@@ -92,15 +93,40 @@ void checkFitGmm(FitGmmCommand& command) {
   if (!command.picture.empty()) requireWritablePicture(command.picture);
 }
 
+// Asked before the map is made: of a file's its size is read first.
+void requireRoomForFit(const NormalMap& map, const MixtureOptions& options) {
+  const std::uint64_t bytes = normalMapBytes(map.width_px, map.height_px, true) +
+                              mixtureFitBytes(map.width_px, map.height_px, options);
+  const std::uint64_t free_bytes = freeMemoryBytes();
+  if (free_bytes == 0 || bytes <= free_bytes) return;
+  throw Error(
+      fmt::format("a fit of {} lobes to map '{}' of {}x{} texels needs about {:.1f} GB of memory, "
+                  "but {:.1f} GB "
+                  "are free; choose fewer texels or --lobes",
+                  options.lobes, map.name, map.width_px, map.height_px,
+                  static_cast<double>(bytes) * 1e-9, static_cast<double>(free_bytes) * 1e-9));
+}
+
+bool isChosen(const FitGmmCommand& command, const Material& material) {
+  return material.normal_map && (command.material.empty() || command.material == material.name);
+}
+
 // The map of the scene's chosen material, or of the first that has one; the lobes too, unless the
 // command line says how many.
 NormalMap sceneMap(const CommonOptions& common, FitGmmCommand& command) {
-  const Scene scene = openScene(common, command.scene);
+  const Scene scene = openScene(common, command.scene, [&](const Scene& planned) {
+    const auto chosen = std::ranges::find_if(
+        planned.materials, [&](const Material& material) { return isChosen(command, material); });
+    if (chosen == planned.materials.end() || !command.check.empty()) return;
+    MixtureOptions options = command.options;
+    if (!command.has_lobes) options.lobes = chosen->normal_map->lobes;
+    requireRoomForFit(*chosen->normal_map->map, options);
+  });
   std::vector<std::string> mapped;
   for (const Material& material : scene.materials) {
     if (!material.normal_map) continue;
     mapped.push_back(material.name);
-    if (!command.material.empty() && command.material != material.name) continue;
+    if (!isChosen(command, material)) continue;
     if (!command.has_lobes) command.options.lobes = material.normal_map->lobes;
     return *material.normal_map->map;
   }
@@ -124,6 +150,8 @@ NormalMap loadMap(const CommonOptions& common, FitGmmCommand& command) {
                            .size_px = command.size_px,
                            .seed = static_cast<std::uint32_t>(command.seed)};
     if (command.has_height_scale) recipe.height_scale = command.height_scale;
+    if (command.check.empty())
+      requireRoomForFit({recipe.kind, recipe.size_px, recipe.size_px, {}}, command.options);
     return generateNormalMap(recipe);
   }
   const std::string file = command.source.substr(0, command.source.rfind('#'));
@@ -132,6 +160,9 @@ NormalMap loadMap(const CommonOptions& common, FitGmmCommand& command) {
                             command.source, fmt::join(known, ", ")));
   }
   if (command.has_height_scale) decoding.height_scale = command.height_scale;
+  const glm::ivec2 size = normalsSize(command.source);
+  if (command.check.empty())
+    requireRoomForFit({command.source, size.x, size.y, {}}, command.options);
   return readNormalMap(command.source, readNormals, decoding);
 }
 

@@ -58,7 +58,7 @@ void checkOutputs(const HeatmapCommand& command) {
 int runView(const CommonOptions& common, const HeatmapCommand& command,
             const ShadingOptions& shading) {
   const HeatmapScale scale = parseScale(command.scale);
-  const Scene scene = openScene(common, command.scene);
+  const Scene scene = openScene(common, command.scene, shading);
   const View& view = chosenView(scene, command.view);
   command.flags.noteIdle(scene, shading, common.quiet);
   Device device = openDevice(common);

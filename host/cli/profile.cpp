@@ -59,7 +59,7 @@ int runProfile(const CommandLine& line, const ProfileOptions& options) {
       .width_px = size.width_px, .height_px = size.height_px, .lanes = line.common.lanes};
   options.flags.apply(shading);
   if (!options.folder.empty()) requireWritableFolder(options.folder);
-  const Scene scene = openScene(line.common, options.scene);
+  const Scene scene = openScene(line.common, options.scene, shading);
   const View& view = chosenView(scene, options.view);
   options.flags.noteIdle(scene, shading, line.common.quiet);
   Device device = openDevice(line.common);

@@ -110,7 +110,7 @@ int runZoom(const CommonOptions& common, const RenderOptions& options,
                             options.output));
   if (!options.aov_output.empty() || !options.trace.empty())
     throw Error("--zoom makes many pictures; it does not go with --aov or --trace");
-  const Scene scene = openScene(common, options.scene);
+  const Scene scene = openScene(common, options.scene, shading);
   const View& view = chosenView(scene, options.view);
   options.flags.noteIdle(scene, shading, common.quiet);
   Device device = openDevice(common);
@@ -291,7 +291,7 @@ int runRender(const CommandLine& line, const RenderOptions& options) {
                          .may_show_nothing = true};
   options.flags.apply(shading);
   if (options.zoom != 0) return runZoom(common, options, shading);
-  const Scene scene = openScene(common, options.scene);
+  const Scene scene = openScene(common, options.scene, shading, options.truth_spp > 0);
   if (options.background && scene.environment.map == nullptr)
     throw Error(
         fmt::format("scene {} has no environment that --background could show", scene.name));

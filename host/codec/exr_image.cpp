@@ -93,6 +93,7 @@ class SampledExr : public StoredImage {
     if (const auto* turned = header.findTypedAttribute<Imf::IntAttribute>("Orientation"))
       part.orientation = turned->value();
     part.deep = isDeep(header);
+    part.band_rows = std::max(1, part.height);  // rows are made of those beside them
     try {
       part.luminance = luminanceOf(header);
     } catch (const std::exception&) {
@@ -103,15 +104,16 @@ class SampledExr : public StoredImage {
 
   bool hasParts() const override { return true; }
 
-  std::string read(int part, int begin, int end, std::span<float> pixels) override try {
+  std::string read(int part, int begin, int end, int first_row, int rows,
+                   std::span<float> pixels) override try {
     const Imf::Header& header = file_.header(part);
     const Imath::Box2i& window = header.dataWindow();
-    const int width = window.max.x - window.min.x + 1, height = window.max.y - window.min.y + 1;
+    const int width = window.max.x - window.min.x + 1;
     const std::vector<Samples> channels = readSamples(part, begin, end);
     if (std::ranges::any_of(channels, [](const Samples& s) { return isChroma(s.name); }))
       luminanceOf(header);
     std::size_t at = 0;
-    for (int y = 0; y < height; ++y)
+    for (int y = first_row; y < first_row + rows; ++y)
       for (int x = 0; x < width; ++x)
         for (const Samples& channel : channels) pixels[at++] = valueAt(channel, x, y);
     return {};

@@ -6,6 +6,7 @@
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <string_view>
 #include <tuple>
 #include <utility>
@@ -41,13 +42,22 @@ class OpenedImage : public StoredImage {
     if (spec.format == OIIO::TypeDesc::UINT8) part.step = 1.0f / 255;
     if (spec.format == OIIO::TypeDesc::UINT16) part.step = 1.0f / 65535;
     part.deep = spec.deep;
+    part.band_rows = bandRows(spec);
     return part;
   }
 
   bool hasParts() const override { return std::string_view(input_->format_name()) == "openexr"; }
 
-  std::string read(int part, int begin, int end, std::span<float> pixels) override {
-    const bool read = input_->read_image(part, 0, begin, end, OIIO::TypeDesc::FLOAT, pixels.data());
+  std::string read(int part, int begin, int end, int first_row, int rows,
+                   std::span<float> pixels) override {
+    const OIIO::ImageSpec spec = input_->spec(part, 0);
+    const int first = spec.y + first_row, last = first + rows;
+    const bool read = spec.tile_width > 0
+                          ? input_->read_tiles(part, 0, spec.x, spec.x + spec.width, first, last,
+                                               spec.z, spec.z + spec.depth, begin, end,
+                                               OIIO::TypeDesc::FLOAT, pixels.data())
+                          : input_->read_scanlines(part, 0, first, last, spec.z, begin, end,
+                                                   OIIO::TypeDesc::FLOAT, pixels.data());
     // Some readers go on after what they only warn of, with pixels that are not the file's.
     if (read && !input_->has_error()) return {};
     const std::string fault = input_->geterror();
@@ -55,6 +65,18 @@ class OpenedImage : public StoredImage {
   }
 
  private:
+  // Whole tiles, and whole blocks of every compression of EXR, of some megabytes.
+  static int bandRows(const OIIO::ImageSpec& spec) {
+    constexpr std::uint64_t kBand_bytes = std::uint64_t{16} << 20;
+    constexpr std::uint64_t kBlockRows = 256;
+    const std::uint64_t step =
+        spec.tile_width > 0 ? std::max<std::uint64_t>(1, spec.tile_height) : kBlockRows;
+    const std::uint64_t row_bytes = std::max<std::uint64_t>(
+        1, static_cast<std::uint64_t>(spec.width) * spec.channelnames.size() * sizeof(float));
+    const std::uint64_t steps = std::max<std::uint64_t>(1, kBand_bytes / row_bytes / step);
+    return static_cast<int>(std::min<std::uint64_t>(steps * step, 1u << 30));
+  }
+
   // Positions on a page, which PNG and TIFF know, are no windows.
   static bool coversData(const StoredPart& part) {
     return part.x >= part.full_x && part.y >= part.full_y &&

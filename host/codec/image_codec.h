@@ -21,6 +21,7 @@ struct StoredPart {
   int orientation = 1;                                          // one of the eight of TIFF and Exif
   float step = 0;  // between neighbouring values in [0, 1] of whole numbers; 0: floats
   bool deep = false;
+  int band_rows = 1;  // that are best read at once, from the first on
   std::array<float, 3> luminance = {0.2126f, 0.7152f, 0.0722f};  // of red, green and blue
 };
 
@@ -32,10 +33,12 @@ class StoredImage {
   virtual std::optional<StoredPart> part(int number) = 0;
   /// True for formats whose parts are pictures of their own, false for pages and smaller copies.
   virtual bool hasParts() const = 0;
-  /// Channels [begin, end) of a part, row by row from the top left, channels interleaved, into
-  /// `pixels`, which holds width * height * (end - begin) values. Empty, or what went wrong: also
-  /// what the reader only warns of.
-  virtual std::string read(int part, int begin, int end, std::span<float> pixels) = 0;
+  /// Channels [begin, end) of some rows of a part, from the top left, channels interleaved, into
+  /// `pixels`, which holds width * rows * (end - begin) values. `first_row` is a multiple of the
+  /// part's band_rows, and so is `rows`, but for the last. Empty, or what went wrong: also what the
+  /// reader only warns of.
+  virtual std::string read(int part, int begin, int end, int first_row, int rows,
+                           std::span<float> pixels) = 0;
 };
 
 /// What a file says of itself beside its pixels: names and texts.

@@ -9,6 +9,7 @@
 
 #include "host/core/error.h"
 #include "host/experiment/rank_device.h"
+#include "host/frame/map_room.h"
 #include "host/ocl/device_clock.h"
 #include "host/ocl/driver_cache.h"
 #include "host/report/picture/image_io.h"
@@ -88,18 +89,28 @@ int chosenLanes(const CommonOptions& common, const Device& device) {
   return common.lanes != 0 ? common.lanes : device.info().default_lanes;
 }
 
-Scene openScene(const CommonOptions& common, const std::string& name) {
+Scene openScene(const CommonOptions& common, const std::string& name,
+                const std::function<void(const Scene&)>& before_maps) {
   Scene scene = loadScene({.scene = name,
                            .overrides = common.overrides,
                            .mesh_file = common.mesh_file,
                            .asset_folder = common.asset_folder,
                            .image_loader = readColours,
                            .normal_loader = readNormals,
+                           .normal_size = normalsSize,
+                           .before_maps = before_maps,
                            .image_decoder = decodeNormals});
   if (!common.quiet) {
     for (const std::string& note : scene.notes) fmt::print(stderr, "note: {}\n", note);
   }
   return scene;
+}
+
+Scene openScene(const CommonOptions& common, const std::string& name, const ShadingOptions& shading,
+                bool truth) {
+  return openScene(common, name, [&](const Scene& scene) {
+    requireRoomForMaps(scene, shading, truth, [&] { return openDevice(common).info(); });
+  });
 }
 
 const View& chosenView(const Scene& scene, const std::string& name) {

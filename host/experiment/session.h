@@ -1,9 +1,11 @@
 // What every measurement needs of the program around it: the common options, the device, a scene.
 #pragma once
 #include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "host/frame/shading_options.h"
 #include "host/ocl/device.h"
 #include "host/report/record/record.h"
 #include "host/scene/load_scene.h"
@@ -56,8 +58,14 @@ bool timesOnItsDevice();
 /// Lanes that kernels will have on `device`.
 int chosenLanes(const CommonOptions& common, const Device& device);
 
-/// Loads a scene with the common options; prints its notes to stderr unless quiet.
-Scene openScene(const CommonOptions& common, const std::string& name);
+/// Loads a scene with the common options; prints its notes to stderr unless quiet. `before_maps`:
+/// see SceneRequest.
+Scene openScene(const CommonOptions& common, const std::string& name,
+                const std::function<void(const Scene&)>& before_maps = {});
+/// The same of a scene that will be shaded so, or sampled for the truth: throws Error before normal
+/// maps are made for which there is no room.
+Scene openScene(const CommonOptions& common, const std::string& name, const ShadingOptions& shading,
+                bool truth = false);
 
 /// The view of that name, or the scene's first if the name is empty. Throws Error listing the known
 /// ones, or if the scene has no view.

@@ -45,8 +45,12 @@ NormalMap interpolatedRows(const NormalMap& map, int factor, int first, int coun
   return fine;
 }
 
+bool canInterpolate(int width_px, int height_px) {
+  return kSurfaceSamples * std::max(width_px, height_px) <= kMaxNormalMapSize_px;
+}
+
 bool canInterpolate(const NormalMap& map) {
-  return kSurfaceSamples * std::max(map.width_px, map.height_px) <= kMaxNormalMapSize_px;
+  return canInterpolate(map.width_px, map.height_px);
 }
 
 }  // namespace glintmark

@@ -18,5 +18,6 @@ inline constexpr int kSurfaceSamples = 2;
 /// Whether so many samples of the map are no more than a map may have texels; a larger one is
 /// filtered as its texels.
 bool canInterpolate(const NormalMap& map);
+bool canInterpolate(int width_px, int height_px);
 
 }  // namespace glintmark

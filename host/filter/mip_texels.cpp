@@ -7,8 +7,14 @@
 #include <utility>
 
 #include "host/core/error.h"
+#include "host/filter/all_rows.h"
 
 namespace glintmark {
+namespace {
+
+constexpr std::size_t kPieceTexels = 65536;
+
+}  // namespace
 
 int MipTexels::levelWidth(int level) const {
   return std::max(1, static_cast<int>(layout.width >> level));
@@ -49,6 +55,14 @@ MipTexels makeMipTexels(int width_px, int height_px, int vectors) {
   MipTexels result{makeMipTexture(width_px, height_px), vectors, {}};
   const int last = static_cast<int>(result.layout.level_count) - 1;
   result.texels.resize((result.layout.first[last] + std::size_t{1}) * vectors);
+  // On all threads: the first to touch a page waits for it.
+  const std::size_t count = result.texels.size();
+  const auto pieces = static_cast<int>((count + kPieceTexels - 1) / kPieceTexels);
+  forAllRows(pieces, "a mip chain's memory", [&](int piece) {
+    const std::size_t first = static_cast<std::size_t>(piece) * kPieceTexels;
+    float4* const texels = result.texels.data() + first;
+    std::fill(texels, texels + std::min(kPieceTexels, count - first), float4{});
+  });
   return result;
 }
 

@@ -1,7 +1,6 @@
 // Mip chains as the kernels read them: one buffer of float4, level after level.
 #pragma once
-#include <vector>
-
+#include "host/core/large_array.h"
 #include "host/core/shared_types.h"
 #include "host/filter/mip_chain.h"
 
@@ -12,7 +11,7 @@ namespace glintmark {
 struct MipTexels {
   MipTexture layout{};
   int vectors = 1;
-  std::vector<float4> texels;
+  LargeArray<float4> texels;
 
   int levelWidth(int level) const;
   int levelHeight(int level) const;

@@ -4,6 +4,7 @@
 // growing v; texel (x, y) is a sample at uv ((x + 0.5) / width, (y + 0.5) / height). A map repeats
 // with period 1 in u and in v, and u and v span the same length on the surface.
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <glm/glm.hpp>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "host/core/image.h"
+#include "host/core/large_array.h"
 
 namespace glintmark {
 
@@ -24,7 +26,7 @@ struct NormalMap {
   std::string name;
   int width_px = 0;
   int height_px = 0;
-  std::vector<glm::vec3> normals;
+  LargeArray<glm::vec3> normals;
   /// What the normals are of, in units of the map's side; empty of a map that was read as normals.
   std::vector<float> heights{};
 
@@ -32,6 +34,9 @@ struct NormalMap {
     return normals[static_cast<std::size_t>(y) * width_px + x];
   }
 };
+
+/// Bytes of a map of so many texels, with or without heights.
+std::uint64_t normalMapBytes(int width_px, int height_px, bool has_heights);
 
 /// What the numbers of an image mean.
 enum class MapContent {
@@ -57,12 +62,13 @@ struct NormalMapDecoding {
 /// the middle of 8 or 16 bits mean 0 where x and y both have them: flat stays flat. Throws Error
 /// naming `name` and the texel for an empty or too large image, values that are not finite, normals
 /// that are not unit (see kUnitTolerance) and normals that point down.
-NormalMap decodeNormalMap(const Image& image, const std::string& name,
+NormalMap decodeNormalMap(Image image, const std::string& name,
                           const NormalMapDecoding& decoding = {});
 
-/// Normals of the periodic height field in the first channel of `heights` by central differences.
+/// Normals of the periodic height field in the first channel of `heights` by central differences,
+/// which become the map's where they are its only channel.
 /// `height_scale` is the height of a value of 1 in units of the map's side. Throws Error as above.
-NormalMap normalsFromHeights(const Image& heights, double height_scale, const std::string& name);
+NormalMap normalsFromHeights(Image heights, double height_scale, const std::string& name);
 
 /// Loads `file` with `image_loader` (image_io's readNormals) and decodes it; the map's name is the
 /// file's.

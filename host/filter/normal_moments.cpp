@@ -4,19 +4,34 @@
 
 #include <algorithm>
 #include <bit>
+#include <string>
 
 #include "host/core/free_memory.h"
+#include "host/filter/all_rows.h"
 #include "host/filter/interpolated_normals.h"
 #include "host/filter/mip_chain.h"
 
 namespace glintmark {
 namespace {
 
+std::string chainOf(const NormalMap& map) {
+  return fmt::format("the mip chain of map '{}'", map.name);
+}
+
+// Of every texel, `stride` floats apart.
+template <class Channels>
+void writeMoments(const NormalMap& map, float* to, std::size_t stride, const Channels& write) {
+  const auto width = static_cast<std::size_t>(map.width_px);
+  forAllRows(map.height_px, chainOf(map), [&](int y) {
+    const std::size_t first = static_cast<std::size_t>(y) * width;
+    for (std::size_t i = first; i < first + width; ++i) write(map.normals[i], to + i * stride);
+  });
+}
+
 template <class Channels>
 Image moments(const NormalMap& map, int channels, const Channels& write) {
   Image image(map.width_px, map.height_px, channels);
-  for (std::size_t i = 0; i < map.normals.size(); ++i)
-    write(map.normals[i], image.pixels.data() + i * static_cast<std::size_t>(channels));
+  writeMoments(map, image.pixels.data(), static_cast<std::size_t>(channels), write);
   return image;
 }
 
@@ -31,14 +46,15 @@ Image meansOfSurface(const NormalMap& map, int channels, const Channels& write) 
   constexpr int kRowsAtOnce = 64;
   Image means(map.width_px, map.height_px, channels);
   const auto stride = static_cast<std::size_t>(channels);
-  for (int y = 0; y < map.height_px; y += kRowsAtOnce) {
-    const int rows = std::min(kRowsAtOnce, map.height_px - y);
+  const int bands = (map.height_px + kRowsAtOnce - 1) / kRowsAtOnce;
+  forAllRows(bands, chainOf(map), [&](int band) {
+    const int y = band * kRowsAtOnce, rows = std::min(kRowsAtOnce, map.height_px - y);
     const Image fine =
         moments(interpolatedRows(map, kSurfaceSamples, kSurfaceSamples * y, kSurfaceSamples * rows),
                 channels, write);
     reduceTexels({fine.pixels.data(), fine.width, fine.height, stride},
                  {means.at(0, y).data(), means.width, rows, stride}, channels);
-  }
+  });
   return means;
 }
 
@@ -53,11 +69,10 @@ MipTexels mipMoments(const NormalMap& map, bool between_texels, int channels, in
   // The packed texels, and of the surface its means and what they are made of.
   const std::size_t fine_floats = !finer ? 0 : in_rows ? channels : 4 * (channels + 3);
   requireMemory(map.normals.size() * sizeof(float) * (4 * vectors + fine_floats) * 4 / 3,
-                fmt::format("the mip chain of map '{}'", map.name));
+                chainOf(map));
   MipTexels chain = makeMipTexels(map.width_px, map.height_px, vectors);
-  float* to = &chain.texels.data()->x;
-  for (std::size_t i = 0; i < map.normals.size(); ++i)
-    write(map.normals[i], to + i * std::size_t{4} * static_cast<std::size_t>(vectors));
+  writeMoments(map, &chain.texels.data()->x, std::size_t{4} * static_cast<std::size_t>(vectors),
+               write);
   if (!finer) {
     fillCoarserLevels(chain, channels);
     return chain;

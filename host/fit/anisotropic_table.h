@@ -50,7 +50,7 @@ void storeAnisotropic(const glm::dmat3& matrix, const AnisotropicView& view, Ani
 AnisotropicCell lookUpAnisotropic(const AnisotropicTable& table, const AnisotropicView& view);
 
 /// The bytes of a table file: a header of 32 bytes (magic, version, NDF, nodes, floats per cell,
-/// checksum of the values, all little-endian), then the values.
+/// checksum of those and of the values, all little-endian), then the values.
 std::string serializeAnisotropicTable(const AnisotropicTable& table);
 /// Reads them back. Throws Error naming `name` if they are of another kind of file, another version
 /// or layout, truncated, or damaged.

@@ -11,7 +11,7 @@ namespace {
 constexpr TableFormat kAnisotropicFormat = {.magic = "GM-ALT\r\n",
                                             .name = "an anisotropic LTC table",
                                             .command = "glintmark fit ltc --anisotropic",
-                                            .version = 1,
+                                            .version = 2,
                                             .cell_floats = ANISO_FLOATS,
                                             .least_size = ANISO_NODES,
                                             .most_size = ANISO_NODES,

@@ -50,7 +50,7 @@ LtcCell lookUpLtc(const LtcTable& table, double alpha, double cos_theta);
 LtcTable resizedLtcTable(const LtcTable& table, int size);
 
 /// The bytes of a table file: a header of 32 bytes (magic, version, NDF, size, floats per cell,
-/// checksum of the values, all little-endian), then the values.
+/// checksum of those and of the values, all little-endian), then the values.
 std::string serializeLtcTable(const LtcTable& table);
 
 /// Reads them back. Throws Error naming `name` if they are of another kind of file, another

@@ -11,7 +11,7 @@ namespace {
 constexpr TableFormat kLtcFormat = {.magic = "GM-LTC\r\n",  // shows text conversion
                                     .name = "an LTC table",
                                     .command = "glintmark fit ltc",
-                                    .version = 1,
+                                    .version = 2,
                                     .cell_floats = LTC_CELL_FLOATS,
                                     .least_size = LTC_SIZE_MIN,
                                     .most_size = LTC_SIZE_MAX,

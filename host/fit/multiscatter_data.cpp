@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/core/error.h"
+#include "host/core/fnv1a.h"
 #include "host/core/json_depth.h"
 #include "host/fit/data_folder.h"
 #include "host/fit/multiscatter_types.h"
@@ -14,7 +15,16 @@
 namespace glintmark {
 namespace {
 
-constexpr const char* kSchema = "glintmark.multiscatter/3";
+constexpr const char* kSchema = "glintmark.multiscatter/4";
+
+constexpr const char* kChecksum = "checksum";
+
+// FNV-1a of everything else, as it is written without spaces.
+std::string checksumOf(const nlohmann::json& json) {
+  nlohmann::json rest = json;
+  rest.erase(kChecksum);
+  return fmt::format("{:016x}", fnv1a(rest.dump()));
+}
 
 // Index of the cell of `x` in ascending `grid`, and how far in it.
 std::pair<std::size_t, double> locate(const std::vector<double>& grid, double x) {
@@ -45,22 +55,22 @@ double MirrorAlbedo::cosine(double alpha, double t) {
 }
 
 std::string toJson(const MultiscatterData& data) {
-  const nlohmann::json json = {
-      {"schema", kSchema},
-      {"source", data.source},
-      {"refit",
-       {{"scale", data.refit.scale},
-        {"exponent", data.refit.exponent},
-        {"flattening", data.refit.flattening},
-        {"third_order", data.refit.third_order},
-        {"third_order_knee", data.refit.third_order_knee}}},
-      {"eon_roughness", {{"top", data.eon.top}, {"knee", data.eon.knee}}},
-      {"fitted", {{"first", data.fitted.first}, {"knee", data.fitted.knee}}},
-      {"mirror",
-       {{"alpha", data.mirror.alphas},
-        {"warped_mu", data.mirror.warped},
-        {"simulated", data.mirror.simulated},
-        {"lobe", data.mirror.lobe}}}};
+  nlohmann::json json = {{"schema", kSchema},
+                         {"source", data.source},
+                         {"refit",
+                          {{"scale", data.refit.scale},
+                           {"exponent", data.refit.exponent},
+                           {"flattening", data.refit.flattening},
+                           {"third_order", data.refit.third_order},
+                           {"third_order_knee", data.refit.third_order_knee}}},
+                         {"eon_roughness", {{"top", data.eon.top}, {"knee", data.eon.knee}}},
+                         {"fitted", {{"first", data.fitted.first}, {"knee", data.fitted.knee}}},
+                         {"mirror",
+                          {{"alpha", data.mirror.alphas},
+                           {"warped_mu", data.mirror.warped},
+                           {"simulated", data.mirror.simulated},
+                           {"lobe", data.mirror.lobe}}}};
+  json[kChecksum] = checksumOf(json);
   return json.dump(1) + "\n";
 }
 
@@ -73,6 +83,11 @@ MultiscatterData readMultiscatterData(const std::filesystem::path& path) {
     const nlohmann::json json = nlohmann::json::parse(text);
     if (json.at("schema") != kSchema)
       throw Error(fmt::format("{} is of another schema than {}", path.string(), kSchema));
+    if (json.at(kChecksum) != checksumOf(json))
+      throw Error(
+          fmt::format("{} is damaged: its checksum does not match its content; make it with "
+                      "glintmark fit lobes",
+                      path.string()));
     json.at("source").get_to(data.source);
     const nlohmann::json& refit = json.at("refit");
     refit.at("scale").get_to(data.refit.scale);

@@ -4,10 +4,12 @@
 
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
+#include "host/core/fnv1a.h"
 
 namespace glintmark {
 namespace {
@@ -20,16 +22,14 @@ struct FileHeader {
   std::uint32_t ndf;  // the value of reference::Ndf
   std::uint32_t size;
   std::uint32_t cell_floats;
-  std::uint64_t checksum;  // FNV-1a of the values' bytes
+  std::uint64_t checksum;  // FNV-1a of all bytes before it, then of the values'
 };
 static_assert(sizeof(FileHeader) == 32);
 
-std::uint64_t fnv1a(std::string_view bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const char byte : bytes) {
-    hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3u;
-  }
-  return hash;
+std::uint64_t checksumOf(const FileHeader& header, std::string_view values) {
+  const std::string_view head(reinterpret_cast<const char*>(&header),
+                              offsetof(FileHeader, checksum));
+  return fnv1a(values, fnv1a(head));
 }
 
 FileHeader readHeader(const TableFormat& format, std::string_view bytes, const std::string& name) {
@@ -46,8 +46,10 @@ FileHeader readHeader(const TableFormat& format, std::string_view bytes, const s
         format.command));
   }
   if (header.size < format.least_size || header.size > format.most_size || header.ndf > 2) {
-    throw Error(fmt::format("{} has a damaged header: size {} ({} to {}), distribution {} (0 to 2)",
-                            name, header.size, format.least_size, format.most_size, header.ndf));
+    throw Error(fmt::format(
+        "{} has a damaged header: size {} ({} to {}), distribution {} (0 to 2); "
+        "`{}` writes one",
+        name, header.size, format.least_size, format.most_size, header.ndf, format.command));
   }
   return header;
 }
@@ -68,8 +70,9 @@ std::string serializeTable(const TableFormat& format, reference::Ndf ndf, int si
                     .ndf = static_cast<std::uint32_t>(ndf),
                     .size = static_cast<std::uint32_t>(size),
                     .cell_floats = format.cell_floats,
-                    .checksum = fnv1a(bytes)};
+                    .checksum = 0};
   std::memcpy(header.magic, format.magic.data(), sizeof(header.magic));
+  header.checksum = checksumOf(header, bytes);
   std::string file(reinterpret_cast<const char*>(&header), sizeof(header));
   return file.append(bytes);
 }
@@ -83,11 +86,13 @@ TableContent parseTable(const TableFormat& format, std::string_view bytes,
   if (values.size() != expected) {
     std::string sides = fmt::format("{}", header.size);
     for (int axis = 1; axis < format.axes; ++axis) sides += fmt::format("x{}", header.size);
-    throw Error(fmt::format("{} has {} bytes, expected {} for a table of {}", name, bytes.size(),
-                            expected + sizeof(header), sides));
+    throw Error(fmt::format("{} has {} bytes, expected {} for a table of {}; `{}` writes one", name,
+                            bytes.size(), expected + sizeof(header), sides, format.command));
   }
-  if (fnv1a(values) != header.checksum) {
-    throw Error(fmt::format("{} is damaged: its checksum does not match its values", name));
+  if (checksumOf(header, values) != header.checksum) {
+    throw Error(
+        fmt::format("{} is damaged: its checksum does not match its content; `{}` writes one", name,
+                    format.command));
   }
   content.values.resize(format.floats(header.size));
   std::memcpy(content.values.data(), values.data(), expected);

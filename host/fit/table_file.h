@@ -1,6 +1,6 @@
 // The file format that all tables of linearly transformed cosines share: a header of 32 bytes
-// (magic, version, NDF, nodes of an axis, floats per cell, checksum of the values, all
-// little-endian), then the values.
+// (magic, version, NDF, nodes of an axis, floats per cell, checksum of those and of the
+// values, all little-endian), then the values.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -18,7 +18,7 @@ struct TableFormat {
   std::string_view magic;    // eight bytes
   std::string_view name;     // "an LTC table"
   std::string_view command;  // what writes one
-  std::uint32_t version = 1, cell_floats = 1;
+  std::uint32_t version = 2, cell_floats = 1;
   std::uint32_t least_size = 1, most_size = 1;  // nodes of an axis
   int axes = 2;
 

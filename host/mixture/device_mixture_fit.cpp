@@ -79,7 +79,7 @@ class DeviceMixtureFit {
       for (std::size_t level = levels_.size(); level-- > 0;) fitLevel(levels_[level], pass);
     }
     for (Level& level : levels_) finishLevel(level);
-    std::vector<float4>& texels = result_.moments.texels;
+    LargeArray<float4>& texels = result_.moments.texels;
     state_.read(texels.data(), texels.size() * sizeof(float4));
     result_.fit_ms = watch.elapsedNs() * 1e-6;
     return std::move(result_);

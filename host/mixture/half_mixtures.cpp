@@ -8,7 +8,7 @@
 namespace glintmark {
 
 std::vector<std::uint16_t> packHalfMixtures(const NormalMixtures& mixtures) {
-  const std::vector<float4>& moments = mixtures.moments.texels;
+  const LargeArray<float4>& moments = mixtures.moments.texels;
   std::vector<std::uint16_t> halves(4 * moments.size());
   tbb::parallel_for(std::size_t{0}, moments.size(), [&](std::size_t i) {
     const NormalLobe lobe = lobeFromMoments(moments[i]);

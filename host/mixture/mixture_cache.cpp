@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "host/core/fnv1a.h"
+#include "host/core/free_memory.h"
 
 namespace glintmark {
 namespace {
@@ -52,7 +53,7 @@ std::string headBytes(const NormalMixtures& mixtures) {
 }
 
 std::string_view texelBytes(const NormalMixtures& mixtures) {
-  const std::vector<float4>& texels = mixtures.moments.texels;
+  const LargeArray<float4>& texels = mixtures.moments.texels;
   return {reinterpret_cast<const char*>(texels.data()), texels.size() * sizeof(float4)};
 }
 
@@ -92,14 +93,19 @@ std::optional<NormalMixtures> mixturesFromBytes(std::string_view bytes) {
       (layout.first[layout.level_count - 1] + std::size_t{1}) * header.lobes;
   if (bytes.size() != texels_size * sizeof(float4)) return std::nullopt;
   result.moments = makeMipTexels(header.width_px, header.height_px, header.lobes);
-  std::vector<float4>& texels = result.moments.texels;
+  LargeArray<float4>& texels = result.moments.texels;
   if (!take(bytes, texels.data(), texels.size())) return std::nullopt;
   return result;
 }
 
 std::optional<NormalMixtures> loadMixtures(const DiskCache& cache, const std::string& key) {
+  constexpr std::size_t kSmall_bytes = std::size_t{64} << 20;
   const auto bytes = cache.load(key, key);
-  return bytes ? mixturesFromBytes(*bytes) : std::nullopt;
+  if (!bytes) return std::nullopt;
+  // The entry and its copy lie side by side; a fit takes less.
+  const std::uint64_t free_bytes = bytes->size() > kSmall_bytes ? freeMemoryBytes() : 0;
+  if (free_bytes > 0 && free_bytes < bytes->size()) return std::nullopt;
+  return mixturesFromBytes(*bytes);
 }
 
 // In pieces, since a copy of a large map's would not fit the memory.

@@ -387,6 +387,17 @@ class MixtureFit {
 
 }  // namespace
 
+std::uint64_t mixtureFitBytes(int width_px, int height_px, const MixtureOptions& options) {
+  // The chain of mixtures, projected normals, and what lies between those.
+  const std::uint64_t between =
+      options.surface == MixtureSurface::kInterpolated && canInterpolate(width_px, height_px)
+          ? kSurfaceSamples * kSurfaceSamples
+          : 0;
+  const std::uint64_t texel = static_cast<std::uint64_t>(options.lobes) * sizeof(float4) * 4 / 3 +
+                              (1 + between) * sizeof(glm::vec2);
+  return static_cast<std::uint64_t>(width_px) * static_cast<std::uint64_t>(height_px) * texel;
+}
+
 NormalMixtures fitNormalMixtures(const NormalMap& map, const MixtureOptions& options,
                                  const std::function<void(double)>& progress) {
   return fitMixturesShared(aloneRanks(), map, options, progress);
@@ -397,13 +408,7 @@ NormalMixtures fitMixturesShared(const Ranks& ranks, const NormalMap& map,
                                  const std::function<void(double)>& progress) {
   checkMixtureOptions(options);
   checkNormalMap(map);
-  // The chain of mixtures, projected normals, and what lies between those.
-  const std::size_t between =
-      options.surface == MixtureSurface::kInterpolated && canInterpolate(map)
-          ? kSurfaceSamples * kSurfaceSamples
-          : 0;
-  requireMemory(map.normals.size() *
-                    (options.lobes * sizeof(float4) * 4 / 3 + (1 + between) * sizeof(glm::vec2)),
+  requireMemory(mixtureFitBytes(map.width_px, map.height_px, options),
                 fmt::format("a fit of {} lobes to each of the {}x{} texels of map '{}'",
                             options.lobes, map.width_px, map.height_px, map.name));
   tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic : options.threads);

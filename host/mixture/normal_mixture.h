@@ -5,6 +5,7 @@
 // 2 s^2 + |mean|^2. The paper stores a (s^2 + |mean|^2), which is a second moment in one dimension
 // only; here the fourth number is the true one in two, so that what a linear filter mixes is exact.
 #pragma once
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -74,6 +75,9 @@ struct NormalMixtures {
     return lobeFromMoments(moments.at(level, x, y)[index]);
   }
 };
+
+/// Bytes that the fit to a map of so many texels takes beside the map.
+std::uint64_t mixtureFitBytes(int width_px, int height_px, const MixtureOptions& options);
 
 /// Fits mixtures to the finest normals under every texel of every level. First and second moments
 /// of each texel's mixture are those of its normals; the neighbour prior decides only how normals

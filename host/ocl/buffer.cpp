@@ -8,6 +8,7 @@
 #include <sys/mman.h>
 #endif
 
+#include "host/core/large_array.h"
 #include "host/core/stopwatch.h"
 #include "host/core/trace.h"
 #include "host/ocl/opencl.h"
@@ -17,9 +18,7 @@ namespace {
 
 constexpr std::size_t kMinBytes = 4;  // OpenCL has no buffers of size zero
 constexpr std::uintptr_t kPageBytes = 4096;
-// Where a system has large pages, and from how many bytes on buffers lie in them.
-constexpr std::size_t kLargePageBytes = std::size_t{2} << 20;
-constexpr std::size_t kLeastLargeBytes = 2 * kLargePageBytes;
+constexpr std::size_t kLargePageBytes = std::size_t{2} << 20;  // where a system has them
 
 double mebibytes(unsigned long long bytes) {
   return static_cast<double>(bytes) / (1024.0 * 1024.0);
@@ -119,6 +118,19 @@ Buffer Buffer::wrapHost(Device& device, void* data, std::size_t bytes, BufferPur
   buffer.impl_ = allocate(device, bytes,
                           CL_MEM_READ_WRITE | (in_place ? CL_MEM_USE_HOST_PTR : cl_mem_flags{0}),
                           in_place ? data : nullptr, purpose, what);
+  return buffer;
+}
+
+Buffer Buffer::take(Device& device, std::shared_ptr<void> memory, std::size_t bytes,
+                    BufferPurpose purpose, const std::string& what) {
+  const bool is_paged = reinterpret_cast<std::uintptr_t>(memory.get()) % kPageBytes == 0;
+  if (device.info().is_cpu && is_paged && bytes >= kLeastLargeBytes) {
+    Buffer buffer = wrapHost(device, memory.get(), bytes, purpose, what);
+    buffer.impl_->memory = std::move(memory);
+    return buffer;
+  }
+  Buffer buffer(device, bytes, purpose, what);
+  buffer.write(memory.get(), bytes);
   return buffer;
 }
 

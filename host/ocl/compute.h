@@ -25,6 +25,11 @@ class Buffer {
   static Buffer wrapHost(Device& device, void* data, std::size_t bytes, BufferPurpose purpose,
                          const std::string& what = "");
 
+  /// Memory of the host's that nobody else changes: on CPU devices it becomes the buffer's and
+  /// lives as long, others get a copy. Large ones begin on a page.
+  static Buffer take(Device& device, std::shared_ptr<void> memory, std::size_t bytes,
+                     BufferPurpose purpose, const std::string& what = "");
+
   /// Host to device; returns wall time [ns]. For wrapped memory the source must be that memory and
   /// the call is free on devices that use it in place.
   double write(const void* source, std::size_t bytes, std::size_t offset = 0);

@@ -1,8 +1,11 @@
 // Arrays on their way to the device.
 #pragma once
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "host/core/large_array.h"
 #include "host/ocl/compute.h"
 
 namespace glintmark {
@@ -20,6 +23,15 @@ Buffer upload(Device& device, const std::vector<T>& items, BufferPurpose purpose
   else
     buffer.fillZero();
   return buffer;
+}
+
+/// The same of an array that may be gigabytes, which processors use in place.
+template <typename T>
+Buffer upload(Device& device, LargeArray<T>&& items, BufferPurpose purpose,
+              const std::string& what = "") {
+  const std::size_t bytes = items.size() * sizeof(T);
+  const auto owner = std::make_shared<LargeArray<T>>(std::move(items));
+  return Buffer::take(device, std::shared_ptr<void>(owner, owner->data()), bytes, purpose, what);
 }
 
 }  // namespace glintmark

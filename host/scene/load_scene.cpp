@@ -112,7 +112,8 @@ PlannedScene planScene(toml::table& content, const std::string& file, const Scen
   scene.name = std::filesystem::path(file).stem().string();
   scene.description = root.text("description");
   scene.cull_back_faces = root.flag("cull_back_faces", false);
-  scene.materials = readMaterials(root, request);
+  std::vector<MapPlan> maps;
+  scene.materials = readMaterials(root, request, maps);
   scene.views = readViews(root.tables("view"));
   if (scene.views.empty()) root.fail("view", "is missing, expected at least one [[view]]");
   scene.lights = readLights(root);
@@ -134,7 +135,7 @@ PlannedScene planScene(toml::table& content, const std::string& file, const Scen
     root.fail("light",
               "is missing, expected at least one [[light]], [[area_light]] or [environment]");
   }
-  return {std::move(scene), std::move(plan)};
+  return {std::move(scene), std::move(plan), std::move(maps)};
 }
 
 Scene loadScene(const SceneRequest& request) {
@@ -144,6 +145,9 @@ Scene loadScene(const SceneRequest& request) {
   const MeshPlan& plan = planned.plan;
   Scene& scene = planned.scene;
 
+  if (request.before_maps) request.before_maps(scene);
+  for (const MapPlan& map : planned.maps)
+    scene.materials[map.material].normal_map->map = std::make_shared<const NormalMap>(map.build());
   buildMesh(plan, request, scene);
   replaceViews(plan.own_views, scene.views);
   if (plan.needs_fitted_views) {

@@ -25,7 +25,12 @@ struct SceneRequest {
   std::function<Image(const std::filesystem::path&)> image_loader{};
   /// Reads normal maps in its place, if there is one.
   std::function<Image(const std::filesystem::path&)> normal_loader{};
-  /// The same of a normal map that a mesh file holds, from its bytes; the name is for messages.
+  /// The texels each way of such an image, by its head alone; for `before_maps`.
+  std::function<glm::ivec2(const std::filesystem::path&)> normal_size{};
+  /// Called before the scene's normal maps and its mesh are made: maps have a name and a size, 0x0
+  /// if that is not known. What it throws ends the loading while nothing large has been made.
+  std::function<void(const Scene&)> before_maps{};
+  /// Reads a normal map that a mesh file holds, from its bytes; the name is for messages.
   std::function<Image(std::string_view bytes, const std::string& name)> image_decoder{};
 };
 

@@ -94,7 +94,7 @@ void readPalette(SceneTable& table, Material& material) {
                  [](const glm::dvec3& colour) { return toFloat4(colour); });
 }
 
-Material readMaterial(SceneTable& table, const SceneRequest& request) {
+Material readMaterial(SceneTable& table, const SceneRequest& request, MapPlan& map) {
   Material material;
   material.name = table.text("name");
   readType(table, material);
@@ -113,7 +113,7 @@ Material readMaterial(SceneTable& table, const SceneRequest& request) {
   readPalette(table, material);
   readNdf(table, material);
   readScattering(table, material);
-  material.normal_map = readNormalMapSource(table, request);
+  material.normal_map = readNormalMapSource(table, request, map);
   if (material.normal_map && material.has_glints)
     table.fail("normal_map", "is given, expected it for materials of type smooth only");
   table.finish();
@@ -122,14 +122,17 @@ Material readMaterial(SceneTable& table, const SceneRequest& request) {
 
 }  // namespace
 
-std::vector<Material> readMaterials(SceneTable& root, const SceneRequest& request) {
+std::vector<Material> readMaterials(SceneTable& root, const SceneRequest& request,
+                                    std::vector<MapPlan>& maps) {
   std::vector<Material> materials;
   std::unordered_set<std::string> names;
   for (SceneTable& table : root.tables("material")) {
-    Material material = readMaterial(table, request);
+    MapPlan map{materials.size(), {}};
+    Material material = readMaterial(table, request, map);
     if (material.name.empty()) table.fail("name", "is missing, expected the material's name");
     if (!names.insert(material.name).second) table.fail("name", "is taken by another material");
     materials.push_back(std::move(material));
+    if (map.build) maps.push_back(std::move(map));
   }
   if (materials.empty()) root.fail("material", "is missing, expected at least one [[material]]");
   return materials;

@@ -37,19 +37,31 @@ NormalMapRecipe readRecipe(SceneTable& table) {
   return recipe;
 }
 
-NormalMap loadFile(const SceneTable& table, const std::string& file, const SceneRequest& request,
-                   const NormalMapDecoding& decoding) {
+// A map of the file's name and size, without normals; `plan` reads them.
+NormalMap planFile(const SceneTable& table, const std::string& file, const SceneRequest& request,
+                   const NormalMapDecoding& decoding, MapPlan& plan) {
   const std::filesystem::path path = findSceneResource(file, table.file(), "normal map");
   const auto& loader = request.normal_loader ? request.normal_loader : request.image_loader;
   if (!loader)
     table.fail("file", "names an image, but this program reads no images; name a generator");
-  return readNormalMap(path, loader, decoding);
+  plan.build = [path, loader, decoding] { return readNormalMap(path, loader, decoding); };
+  glm::ivec2 size(0);
+  if (request.before_maps && request.normal_size) size = request.normal_size(path);
+  if (std::max(size.x, size.y) > kMaxNormalMapSize_px)
+    table.fail("file", fmt::format("is {}, which has {}x{} texels, expected 1 to {} each way", file,
+                                   size.x, size.y, kMaxNormalMapSize_px));
+  return {path.filename().string(), size.x, size.y, {}};
+}
+
+NormalMap planGenerated(const NormalMapRecipe& recipe, MapPlan& plan) {
+  plan.build = [recipe] { return generateNormalMap(recipe); };
+  return {recipe.kind, recipe.size_px, recipe.size_px, {}};
 }
 
 }  // namespace
 
 std::optional<NormalMapSource> readNormalMapSource(SceneTable& material,
-                                                   const SceneRequest& request) {
+                                                   const SceneRequest& request, MapPlan& plan) {
   std::optional<SceneTable> table = material.table("normal_map");
   if (!table) return std::nullopt;
   NormalMapRecipe recipe = readRecipe(*table);
@@ -67,7 +79,7 @@ std::optional<NormalMapSource> readNormalMapSource(SceneTable& material,
   source.lobes = table->integer("lobes", source.lobes, 1, kMaxLobes);
   table->finish();
   source.map = std::make_shared<const NormalMap>(
-      file.empty() ? generateNormalMap(recipe) : loadFile(*table, file, request, decoding));
+      file.empty() ? planGenerated(recipe, plan) : planFile(*table, file, request, decoding, plan));
   return source;
 }
 

@@ -11,12 +11,20 @@
 
 namespace glintmark {
 
-/// [[material]]; at least one.
-std::vector<Material> readMaterials(SceneTable& root, const SceneRequest& request);
+/// Where a material's normal map comes from, checked but not yet made.
+struct MapPlan {
+  std::size_t material = 0;  // its number in the scene
+  std::function<NormalMap()> build;
+};
 
-/// [material.normal_map], if the material has one; the map is generated or loaded.
+/// [[material]]; at least one. Their normal maps come from `maps`.
+std::vector<Material> readMaterials(SceneTable& root, const SceneRequest& request,
+                                    std::vector<MapPlan>& maps);
+
+/// [material.normal_map], if the material has one: its source with the map's name and size, and
+/// what generates or loads the map.
 std::optional<NormalMapSource> readNormalMapSource(SceneTable& material,
-                                                   const SceneRequest& request);
+                                                   const SceneRequest& request, MapPlan& plan);
 
 /// [[light]].
 std::vector<ConeLight> readLights(SceneTable& root);
@@ -58,13 +66,15 @@ MeshPlan readMesh(SceneTable& root, const SceneRequest& request,
 /// The TOML of a scene file. Throws Error with the line of what is malformed.
 toml::table parseSceneText(std::string_view text, const std::string& file);
 
-/// A scene that lacks its mesh, and where that comes from.
+/// A scene that lacks its mesh and its normal maps, and where those come from.
 struct PlannedScene {
   Scene scene;
   MeshPlan plan;
+  std::vector<MapPlan> maps;
 };
 
-/// Everything of a scene file but building its mesh; changes `content` by the request's overrides.
+/// Everything of a scene file but making its mesh and its normal maps; changes `content` by the
+/// request's overrides.
 PlannedScene planScene(toml::table& content, const std::string& file, const SceneRequest& request);
 
 }  // namespace glintmark

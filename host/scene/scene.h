@@ -58,7 +58,7 @@ View orbitView(const View& base, const Orbit& orbit);
 
 /// A material's normals in finer detail than its mesh.
 struct NormalMapSource {
-  std::shared_ptr<const NormalMap> map;
+  std::shared_ptr<const NormalMap> map;  // in a planned scene without normals yet
   int lobes = 4;  // Gaussians per texel where mixtures stand for the map, 1 to 8; docs/accuracy.md
 };
 

@@ -276,7 +276,7 @@ TestTexture waveTexture() {
   const MipTexels packed = packMipChain(makeMipChain(finest), 1);
   TestTexture texture;
   texture.header = packed.layout;
-  texture.texels = packed.texels;
+  texture.texels.assign(packed.texels.begin(), packed.texels.end());
   return texture;
 }
 

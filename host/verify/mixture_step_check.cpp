@@ -180,7 +180,8 @@ class DeviceStep {
 
   /// `given.state` after the step.
   MipTexels run(const GivenLevel& given, const MixtureFitRun& run) {
-    const Buffer state = probeData(bench_, given.state.texels);
+    const std::vector<float4> texels(given.state.texels.begin(), given.state.texels.end());
+    const Buffer state = probeData(bench_, texels);
     const Buffer parameters = probeData(bench_, std::vector{run});
     if (run.most_columns < MF_SLOTS) {
       launch("fitTexels", {x_, y_, parameters, state, zeros(128)}, run.rows * run.items_per_row);

@@ -5,10 +5,12 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <string>
 
 #include "host/core/atomic_file.h"
 #include "host/core/disk_cache.h"
+#include "tests/damaged_bytes.h"
 #include "tests/report/temp_folder.h"
 
 namespace glintmark {
@@ -68,6 +70,25 @@ TEST_F(Caches, LinksInThePlaceOfEntriesAreNotFollowed) {
   const std::string before = readFile(folder_ / "moved");
   cache.store("name", "key", "other");
   EXPECT_EQ(readFile(folder_ / "moved"), before);
+}
+
+TEST_F(Caches, EveryWrongBitMisses) {
+  const DiskCache cache = DiskCache::fromEnvironment();
+  const std::string key = "version 2 of 16x16 texels", content = "what took long to compute";
+  cache.store("name", key, content);
+  const auto entry = std::filesystem::directory_iterator(folder_ / "deep/cache")->path();
+  const std::string good = readFile(entry);
+  withEachBitFlipped(good, good.size(), 1,
+                     [&](const std::string& damaged, const std::string& place) {
+                       std::ofstream(entry, std::ios::binary) << damaged;
+                       EXPECT_FALSE(cache.load("name", key)) << place;
+                     });
+  for (std::size_t bytes = 0; bytes < good.size(); ++bytes) {
+    std::ofstream(entry, std::ios::binary) << good.substr(0, bytes);
+    EXPECT_FALSE(cache.load("name", key)) << bytes;
+  }
+  cache.store("name", key, content);
+  EXPECT_EQ(cache.load("name", key), content);
 }
 
 }  // namespace

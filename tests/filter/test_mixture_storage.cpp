@@ -7,11 +7,14 @@
 #include <fstream>
 #include <random>
 
+#include "host/core/error.h"
 #include "host/filter/normal_map_generators.h"
 #include "host/filter/normal_moments.h"
 #include "host/mixture/half_mixtures.h"
 #include "host/mixture/mixture_cache.h"
 #include "host/mixture/mixture_error.h"
+#include "host/mixture/mixture_file.h"
+#include "tests/damaged_bytes.h"
 
 namespace glintmark {
 namespace {
@@ -171,6 +174,38 @@ TEST_F(MixtureCache, RefitsWhatIsDamaged) {
   std::string other_version = good;
   ++other_version[0];
   EXPECT_FALSE(mixturesFromBytes(other_version));
+}
+
+TEST_F(MixtureCache, EveryWrongBitIsFittedAgain) {
+  const std::string good = mixtureBytes(get().mixtures);
+  const fs::path entry = onlyEntry();
+  std::ifstream file(entry, std::ios::binary);
+  const std::string stored(std::istreambuf_iterator<char>(file), {});
+  const DiskCache cache = DiskCache::fromEnvironment();
+  const std::string key = mixtureKey(map_, {});
+  ASSERT_TRUE(loadMixtures(cache, key));
+  withEachBitFlipped(stored, stored.size() - good.size() + 64, good.size() / 200,
+                     [&](const std::string& damaged, const std::string& place) {
+                       std::ofstream(entry, std::ios::binary) << damaged;
+                       EXPECT_FALSE(loadMixtures(cache, key)) << place;
+                     });
+  EXPECT_FALSE(get().from_cache);
+  EXPECT_EQ(mixtureBytes(get().mixtures).size(), good.size());
+}
+
+TEST(MixtureFile, EveryWrongBitIsRefused) {
+  const NormalMap map = generateNormalMap({.kind = "bumps", .size_px = 16});
+  const std::string good = serializeMixtures(fitNormalMixtures(map));
+  ASSERT_NO_THROW(parseMixtures(good, "some.mixtures"));
+  withEachBitFlipped(good, 128, good.size() / 400,
+                     [&](const std::string& damaged, const std::string& place) {
+                       try {
+                         parseMixtures(damaged, "some.mixtures");
+                         FAIL() << place;
+                       } catch (const Error& error) {
+                         EXPECT_EQ(std::string(error.what()).rfind("'some.mixtures'", 0), 0u);
+                       }
+                     });
 }
 
 }  // namespace

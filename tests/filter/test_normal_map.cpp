@@ -4,6 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <random>
+#include <utility>
+#include <vector>
 
 #include "host/core/error.h"
 #include "host/filter/normal_map.h"
@@ -124,6 +127,38 @@ TEST(NormalMap, NamesWhatIsWrong) {
   const double infinity = std::numeric_limits<double>::infinity();
   EXPECT_THROW(normalsFromHeights(texelImage(1, {0}), infinity, "x"), Error);
   EXPECT_THROW(decodeNormalMap(texelImage(1, {0}), "x", {.content = MapContent::kNormals}), Error);
+}
+
+// Waves one by one, as the sum of cosines says.
+TEST(NormalMap, NoiseIsTheSumOfItsWaves) {
+  constexpr int kSize = 300;  // no power of two, and no multiple of the columns made at once
+  constexpr std::uint32_t kSeed = 5;
+  struct Wave {
+    double u, v, phase, height;
+  };
+  std::vector<Wave> waves;
+  const auto add = [&](std::uint32_t seed, int count, double lowest, double highest, double scale) {
+    std::mt19937 random(seed);
+    const auto uniform = [&] { return random() * 0x1p-32; };
+    for (int i = 0; i < count; ++i) {
+      const double cycles = lowest + (highest - lowest) * uniform();
+      const double angle = 2 * std::numbers::pi * uniform();
+      const double u = std::round(cycles * std::cos(angle)),
+                   v = std::round(cycles * std::sin(angle));
+      waves.push_back({u, v, 2 * std::numbers::pi * uniform(), scale * std::sqrt(2.0 / count)});
+    }
+  };
+  add(kSeed, 32, 10, 25, 1.2e-3);
+  add(kSeed + 1, 48, 50, 110, 4e-4);
+  const Image heights = generateHeights({.kind = "bumps", .size_px = kSize, .seed = kSeed});
+  for (const auto& [x, y] : {std::pair{0, 0}, {255, 15}, {256, 16}, {299, 299}, {17, 288}}) {
+    double sum = 0;
+    for (const Wave& wave : waves)
+      sum += wave.height *
+             std::cos(2 * std::numbers::pi * (wave.u * (x + 0.5) + wave.v * (y + 0.5)) / kSize +
+                      wave.phase);
+    EXPECT_NEAR(heights.at(x, y)[0], sum, 1e-9) << x << ' ' << y;
+  }
 }
 
 TEST(NormalMap, GeneratorsMakeValidMapsThatRepeat) {

@@ -56,8 +56,8 @@ TEST(AnisotropicTable, FilesSayWhatIsWrong) {
                                     "ltc --anisotropic` writes one"),
             std::string::npos);
   std::string other = good;
-  other[8] = 2;
-  EXPECT_NE(messageOfTable(other).find("of version 2 with 12 floats per cell, expected version 1"),
+  other[8] = 1;
+  EXPECT_NE(messageOfTable(other).find("of version 1 with 12 floats per cell, expected version 2"),
             std::string::npos);
   EXPECT_NE(messageOfTable(good.substr(0, good.size() - 4)).find("for a table of 8x8x8x8"),
             std::string::npos);

@@ -84,8 +84,8 @@ TEST(LtcTableFile, SaysWhatIsWrong) {
   EXPECT_NE(parseMessage(good + "x").find("has 2081 bytes, expected 2080"), std::string::npos);
 
   std::string other = good;
-  other[kVersionOffset] = 2;
-  EXPECT_NE(parseMessage(other).find("of version 2 with 8 floats per cell, expected version 1"),
+  other[kVersionOffset] = 1;
+  EXPECT_NE(parseMessage(other).find("of version 1 with 8 floats per cell, expected version 2"),
             std::string::npos);
 
   std::string sized = good;

@@ -31,7 +31,7 @@ NormalMixtures fitAt(int lanes, const NormalMap& map, const MixtureOptions& opti
 }
 
 bool sameBits(const NormalMixtures& a, const NormalMixtures& b) {
-  const std::vector<float4>&x = a.moments.texels, &y = b.moments.texels;
+  const LargeArray<float4>&x = a.moments.texels, &y = b.moments.texels;
   return x.size() == y.size() && std::memcmp(x.data(), y.data(), x.size() * sizeof(float4)) == 0;
 }
 

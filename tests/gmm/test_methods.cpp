@@ -249,7 +249,7 @@ TEST(Mixtures, AbsentNormalMapsLeaveNothingBehind) {
 // Lobes that no normal of a texel has are tiny numbers in a fit; on Intel's processors sums of such
 // numbers take a hundred cycles each.
 TEST(Mixtures, TexelsHoldNothingNearDenormals) {
-  const auto tiny = [](const std::vector<float4>& texels) {
+  const auto tiny = [](const auto& texels) {
     return std::ranges::count_if(texels, [](const float4& t) {
       return (t.x != 0 && std::abs(t.x) < 1e-20f) || (t.w != 0 && std::abs(t.w) < 1e-20f);
     });

@@ -3,6 +3,7 @@
 #include <numeric>
 #include <vector>
 
+#include "host/ocl/upload.h"
 #include "tests/ocl/ocl_test.h"
 
 namespace glintmark {
@@ -73,6 +74,21 @@ TEST_F(BufferTest, WrappedMemoryReachesTheKernelAndBack) {
       ASSERT_EQ(memory.get()[i], copy[i]) << frame << " " << i;
     }
   }
+}
+
+TEST_F(BufferTest, TakenMemoryIsTheBuffersOwn) {
+  for (const std::size_t words : {std::size_t{1000}, kLeastLargeBytes / 4, std::size_t{3} << 20}) {
+    LargeArray<std::uint32_t> items(words);
+    for (std::size_t i = 0; i < words; ++i) items[i] = static_cast<std::uint32_t>(3 * i + 1);
+    const LargeArray<std::uint32_t> expected = items;
+    Buffer buffer = upload(device_, std::move(items), BufferPurpose::kProbe, "taken");
+    EXPECT_EQ(buffer.bytes(), words * 4);
+    EXPECT_EQ(device_.bufferUse().total.held, words * 4);
+    LargeArray<std::uint32_t> back(words);
+    buffer.read(back.data(), words * 4);
+    EXPECT_EQ(back, expected);
+  }
+  EXPECT_EQ(device_.bufferUse().total.held, 0u);
 }
 
 TEST_F(BufferTest, ZeroBytesStillMakesABuffer) {

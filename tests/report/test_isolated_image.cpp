@@ -23,17 +23,19 @@ class FakeImage : public StoredImage {
     StoredPart part{.name = "part " + std::to_string(number), .channel_names = {"R", "long name"}};
     part.x = -1, part.y = 2, part.width = 3, part.height = 4, part.depth = 5;
     part.full_x = 6, part.full_y = 7, part.full_width = 8, part.full_height = 9;
-    part.orientation = 3, part.step = 0.25f, part.deep = true;
+    part.orientation = 3, part.band_rows = 11, part.step = 0.25f, part.deep = true;
     part.luminance = {0.5f, 0.25f, 0.125f};
     return part;
   }
   bool hasParts() const override { return true; }
-  std::string read(int part, int begin, int end, std::span<float> pixels) override {
+  std::string read(int part, int begin, int end, int first_row, int rows,
+                   std::span<float> pixels) override {
     if (fault_ == Fault::kCrashAtReading) std::raise(SIGSEGV);
     if (fault_ == Fault::kWarning) return "it is odd";
     if (fault_ == Fault::kMemory) throw std::bad_alloc();
     for (std::size_t i = 0; i < pixels.size(); ++i)
-      pixels[i] = static_cast<float>(static_cast<int>(i) + 1000 * part + 100 * begin + 10 * end);
+      pixels[i] = static_cast<float>(static_cast<int>(i) + 10000 * rows + 100000 * first_row +
+                                     1000 * part + 100 * begin + 10 * end);
     return {};
   }
 
@@ -87,12 +89,13 @@ TEST(IsolatedImage, EverythingComesOver) {
             (std::array{6, 7, 8, 9}));
   EXPECT_EQ(part.orientation, 3);
   EXPECT_EQ(part.step, 0.25f);
+  EXPECT_EQ(part.band_rows, 11);
   EXPECT_TRUE(part.deep);
   EXPECT_EQ(part.luminance, (std::array{0.5f, 0.25f, 0.125f}));
   std::vector<float> pixels(300000);
-  EXPECT_EQ(image->read(1, 2, 3, pixels), "");
+  EXPECT_EQ(image->read(1, 2, 3, 5, 4, pixels), "");
   for (std::size_t i = 0; i < pixels.size(); ++i)
-    ASSERT_EQ(pixels[i], static_cast<float>(1230 + static_cast<int>(i)));
+    ASSERT_EQ(pixels[i], static_cast<float>(541230 + static_cast<int>(i)));
 }
 
 TEST(IsolatedImage, FaultsAreSentences) {
@@ -104,11 +107,11 @@ TEST(IsolatedImage, FaultsAreSentences) {
   const std::string opening = messageOf<Error>([&] { openFake(Fault::kCrashAtOpening, fault); });
   EXPECT_NE(opening.find("was ended by signal 6"), std::string::npos) << opening;
   std::vector<float> pixels(10);
-  EXPECT_EQ(openFake(Fault::kWarning, fault)->read(0, 0, 1, pixels), "it is odd");
-  EXPECT_NE(openFake(Fault::kMemory, fault)->read(0, 0, 1, pixels).find("memory"),
+  EXPECT_EQ(openFake(Fault::kWarning, fault)->read(0, 0, 1, 0, 1, pixels), "it is odd");
+  EXPECT_NE(openFake(Fault::kMemory, fault)->read(0, 0, 1, 0, 1, pixels).find("memory"),
             std::string::npos);
   const auto image = openFake(Fault::kCrashAtReading, fault);
-  const std::string reading = messageOf<Error>([&] { image->read(0, 0, 1, pixels); });
+  const std::string reading = messageOf<Error>([&] { image->read(0, 0, 1, 0, 1, pixels); });
   EXPECT_NE(reading.find("/proc/self/exe"), std::string::npos) << reading;
   EXPECT_NE(reading.find("was ended by signal 11"), std::string::npos) << reading;
 }

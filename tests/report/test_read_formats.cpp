@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ctime>
 
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
@@ -113,6 +114,94 @@ TEST_F(ImageFormats, BitmapsFromTheBottomAndTheTop) {
 }
 
 // What OpenImageIO 2.4 gives other pixels for.
+/// A chunk of a RIFF file.
+std::string riff(const std::string& name, const std::string& content) {
+  return name + littleEndian(static_cast<std::uint32_t>(content.size())) + content +
+         std::string(content.size() % 2, '\0');
+}
+
+// Lossless: a red pixel beside a blue one.
+const std::string kWebpPixels(
+    "\x2f\x01\x00\x00\x00\x0f\x10\xf3\xbf\xff\xf3\x1f\x0e\x32\xa2\xff\x01", 17);
+
+// Exif of big and of little endian machines, with the mark of JPEG's and without.
+TEST_F(ImageFormats, WebpLiesAsItsExifSays) {
+  const auto file = [](const std::string& exif) {
+    const std::string flags{8, 0, 0, 0, 1, 0, 0, 0, 0, 0};  // has Exif, is 2x1
+    return riff("RIFF",
+                "WEBP" + riff("VP8X", flags) + riff("VP8L", kWebpPixels) + riff("EXIF", exif));
+  };
+  const auto orientation = [](char value, bool big) {
+    if (big)
+      return std::string("MM\0*\0\0\0\x08\0\1\x01\x12\0\3\0\0\0\1\0", 19) + value +
+             std::string(6, '\0');
+    return std::string("II*\0\x08\0\0\0\1\0\x12\x01\3\0\1\0\0\0", 18) + value +
+           std::string(7, '\0');
+  };
+  EXPECT_EQ(reds(read("plain.webp", riff("RIFF", "WEBP" + riff("VP8L", kWebpPixels)))),
+            (std::vector<int>{255, 0}));
+  for (const bool big : {false, true}) {
+    EXPECT_EQ(reds(read("1.webp", file(orientation(1, big)))), (std::vector<int>{255, 0}));
+    EXPECT_EQ(reds(read("3.webp", file(orientation(3, big)))), (std::vector<int>{0, 255}));
+    const Image turned = read("6.webp", file(std::string("Exif\0\0", 6) + orientation(6, big)));
+    EXPECT_EQ(turned.height, 2);
+    EXPECT_EQ(reds(turned), (std::vector<int>{255, 0}));
+    EXPECT_EQ(reds(read("8.webp", file(orientation(8, big)))), (std::vector<int>{0, 255}));
+    EXPECT_EQ(normalsSize(folder_ / "8.webp"), glm::ivec2(1, 2));
+  }
+  // Damaged Exif says nothing.
+  for (const std::string& exif : {std::string(), std::string("II*"), std::string(40, '\xff'),
+                                  orientation(6, true).substr(0, 15), orientation(99, false)})
+    EXPECT_EQ(reds(read("bad.webp", file(exif))), (std::vector<int>{255, 0}));
+}
+
+TEST_F(ImageFormats, TransparentWebpIsRefused) {
+  const std::string clear(
+      "\x2f\x01\x00\x00\x10\x0f\x10\xfb\x3f\xff\xa7\xf9\x8f\x0a\x15\x88\xe8\x7f\x00", 19);
+  const std::string file = riff("RIFF", "WEBP" + riff("VP8L", clear));
+  EXPECT_NE(messageOf<Error>([&] { read("clear.webp", file); }).find("transparent in places"),
+            std::string::npos);
+}
+
+TEST_F(ImageFormats, DpxOfColumnsIsRefused) {
+  for (const bool big : {false, true})
+    for (int orientation = 0; orientation < 8; ++orientation) {
+      std::string file(2048, '\0');
+      file.replace(0, 4, big ? "SDPX" : "XPDS");
+      file[768 + (big ? 1 : 0)] = static_cast<char>(orientation);
+      const std::string text = messageOf<Error>([&] { read("film.dpx", file); });
+      EXPECT_EQ(text.find("in columns") != std::string::npos, orientation >= 4) << text;
+    }
+}
+
+// Without the tag a sample has one bit; OpenImageIO reads it as if it had eight.
+TEST_F(ImageFormats, TiffWithoutBitsPerSampleIsRefused) {
+  std::string file = tiffBytes(3, 2, 1, {1, 2, 3, 4, 5, 6});
+  EXPECT_EQ(read("grey.tif", file).pixels.size(), 18u);
+  const std::size_t tag =
+      file.find(littleEndian(std::uint16_t{258}) + littleEndian(std::uint16_t{3}));
+  ASSERT_NE(tag, std::string::npos);
+  file.replace(tag, 2,
+               littleEndian(std::uint16_t{257 + 8}));  // another tag that means nothing here
+  EXPECT_NE(messageOf<Error>([&] { read("bits.tif", file); }).find("how many bits a sample has"),
+            std::string::npos);
+}
+
+// A file of a few bytes may say that it is large: nothing of that size is filled before its first
+// rows turn out not to be there.
+TEST_F(ImageFormats, LargePicturesWithoutPixelsAreRefusedAtOnce) {
+  const std::clock_t start = std::clock();
+  const std::string shapes[] = {"P6\n20000 20000\n255\n", "PF\n20000 20000\n-1.0\n",
+                                "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 20000 +X 20000\n"};
+  const char* names[] = {"large.ppm", "large.pfm", "large.hdr"};
+  for (int i = 0; i < 3; ++i) {
+    const std::string text = messageOf<Error>([&] { read(names[i], shapes[i]); });
+    EXPECT_NE(text.find(names[i]), std::string::npos) << text;
+  }
+  const double taken_s = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  EXPECT_LT(taken_s, 1.5) << "20000x20000 pixels of three floats take longer to clear";
+}
+
 TEST_F(ImageFormats, WhatWouldBeReadWronglyIsRefused) {
   const auto complaint = [&](const std::string& name, const std::string& bytes) {
     return messageOf<Error>([&] { read(name, bytes); });

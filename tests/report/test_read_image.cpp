@@ -47,6 +47,26 @@ void expectUnit(const Image& image) {
   EXPECT_EQ(image.pixels, (std::vector<float>{0.6f, 0, 0.8f, 0, 0.6f, 0.8f}));
 }
 
+// More rows than are read at once.
+TEST_F(ImageFiles, LargeImagesComeBandByBand) {
+  constexpr int kWidth = 1500, kHeight = 3100;  // 56 MB
+  Image image(kWidth, kHeight, 3);
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) {
+      image.at(x, y)[0] = static_cast<float>(x);
+      image.at(x, y)[1] = static_cast<float>(y);
+      image.at(x, y)[2] = static_cast<float>(x ^ y);
+    }
+  const std::filesystem::path file = folder_ / "large.exr";
+  writeExr(image, file);
+  EXPECT_EQ(readColours(file).pixels, image.pixels);
+  EXPECT_EQ(normalsSize(file), glm::ivec2(kWidth, kHeight));
+  std::string bytes = readFile(file);
+  bytes.resize(bytes.size() / 2);
+  const std::string cut = messageOf<Error>([&] { readColours(write("cut.exr", bytes)); });
+  expectIn(cut, {"cut.exr"});
+}
+
 TEST_F(ImageFiles, TheLayerOfNormalsIsFoundByItsName) {
   std::vector<std::vector<float>> values = kColour;
   values.insert(values.begin(), {1, 1});  // alpha

@@ -224,5 +224,50 @@ TEST(BadScenes, NumbersBeyondFloatsAreRefusedWithTheirKey) {
                   {set, "below the range of single precision, 1.2e-38"});
 }
 
+// What is asked before maps are made sees their sizes, and nothing is made where it throws.
+TEST(BadScenes, MapsAreRefusedBeforeTheyAreMade) {
+  const TemporaryFolder folder;
+  SceneRequest request;
+  std::string text = sceneText();
+  request.scene = folder.write("scene.toml", text + R"(
+[[material]]
+name = "stone"
+type = "smooth"
+[material.normal_map]
+generator = "bumps"
+size_px = 16384
+[[material]]
+name = "brick"
+type = "smooth"
+[material.normal_map]
+file = "brick.png"
+)");
+  folder.write("brick.png", "");
+  int read = 0;
+  request.normal_loader = [&](const std::filesystem::path&) {
+    ++read;
+    return Image(1, 1, 1);
+  };
+  request.normal_size = [](const std::filesystem::path& file) {
+    EXPECT_EQ(file.filename(), "brick.png");
+    return glm::ivec2(7000, 9000);
+  };
+  request.before_maps = [&](const Scene& scene) {
+    std::vector<std::string> seen;
+    for (const Material& material : scene.materials)
+      if (material.normal_map) {
+        const NormalMap& map = *material.normal_map->map;
+        EXPECT_TRUE(map.normals.empty());
+        seen.push_back(map.name + " " + std::to_string(map.width_px) + "x" +
+                       std::to_string(map.height_px));
+      }
+    EXPECT_EQ(seen, (std::vector<std::string>{"bumps 16384x16384", "brick.png 7000x9000"}));
+    EXPECT_FALSE(scene.lights.empty() && scene.area_lights.empty());
+    throw Error("no room");
+  };
+  EXPECT_EQ(errorOf([&] { loadScene(request); }), "no room");
+  EXPECT_EQ(read, 0);
+}
+
 }  // namespace
 }  // namespace glintmark

@@ -1,6 +1,8 @@
 #include "host/frame/effect/normal_maps.h"
 
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include <cmath>
 #include <utility>
@@ -18,6 +20,9 @@
 
 namespace glintmark {
 namespace {
+
+using TexelRange = tbb::blocked_range<std::size_t>;
+constexpr std::size_t kTexelsAtOnce = 65536;
 
 // A fit of a large map takes minutes.
 NormalMixtures fittedMixtures(const NormalMap& map, const MixtureOptions& options,
@@ -38,16 +43,21 @@ MipTexels finestNormals(const NormalMap& map) {
   texels.layout.width = static_cast<uint>(map.width_px);
   texels.layout.height = static_cast<uint>(map.height_px);
   texels.layout.level_count = 1;
-  texels.texels.reserve(map.normals.size());
-  for (const glm::vec3& n : map.normals) texels.texels.push_back({n.x, n.y, n.z, 0});
+  texels.texels.resize(map.normals.size());
+  tbb::parallel_for(TexelRange(0, map.normals.size(), kTexelsAtOnce), [&](const TexelRange& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      const glm::vec3& n = map.normals[i];
+      texels.texels[i] = {n.x, n.y, n.z, 0};
+    }
+  });
   return texels;
 }
 
-template <typename T>
-NormalTexture uploadTexture(Device& device, const MipTexture& layout, const std::vector<T>& texels,
+template <typename Texels>
+NormalTexture uploadTexture(Device& device, const MipTexture& layout, Texels&& texels,
                             std::size_t texel_bytes) {
   return {upload(device, std::vector{layout}, BufferPurpose::kNormalMapLayouts),
-          upload(device, texels, BufferPurpose::kNormalMaps), texel_bytes};
+          upload(device, std::forward<Texels>(texels), BufferPurpose::kNormalMaps), texel_bytes};
 }
 
 // Moments smaller than this are 0 to every method. A lobe that a texel does not use keeps some
@@ -55,15 +65,17 @@ NormalTexture uploadTexture(Device& device, const MipTexture& layout, const std:
 // microcode for them a hundred cycles each.
 constexpr float kLeastMoment = 1e-20f;
 
-void dropLeastMoments(std::vector<float4>& texels) {
-  for (float4& texel : texels)
-    for (float* value : {&texel.x, &texel.y, &texel.z, &texel.w})
-      if (std::abs(*value) < kLeastMoment) *value = 0;
+void dropLeastMoments(LargeArray<float4>& texels) {
+  tbb::parallel_for(TexelRange(0, texels.size(), kTexelsAtOnce), [&](const TexelRange& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i)
+      for (float* value : {&texels[i].x, &texels[i].y, &texels[i].z, &texels[i].w})
+        if (std::abs(*value) < kLeastMoment) *value = 0;
+  });
 }
 
 NormalTexture uploadTexture(Device& device, MipTexels texels) {
   dropLeastMoments(texels.texels);
-  return uploadTexture(device, texels.layout, texels.texels,
+  return uploadTexture(device, texels.layout, std::move(texels.texels),
                        static_cast<std::size_t>(texels.vectors) * sizeof(float4));
 }
 
@@ -140,7 +152,65 @@ NormalTexture makeTexture(Device& device, const NormalMap& map, NormalMethod met
   throw Error("the normal method is unknown; it must be 0 (mip) to 9 (leadr)");
 }
 
+// Whether the finest level of a mixture is of the surface between the map's texels, too.
+bool mixesSurface(const KernelConfig& config, int width_px, int height_px) {
+  return config.normal_method == NormalMethod::kGmm && config.ltc_method == LtcMethod::kMixture &&
+         canInterpolate(width_px, height_px);
+}
+
+std::uint64_t chainBytes(int width_px, int height_px, int vectors) {
+  const MipTexture layout = makeMipTexture(width_px, height_px);
+  return (layout.first[layout.level_count - 1] + std::uint64_t{1}) *
+         static_cast<std::uint64_t>(vectors) * sizeof(float4);
+}
+
+TextureNeed mixtureNeed(int width_px, int height_px, const KernelConfig& config) {
+  const std::uint64_t own = chainBytes(width_px, height_px, config.lobes);
+  if (mixesSurface(config, width_px, height_px)) {
+    const int width = kSurfaceSamples * width_px, height = kSurfaceSamples * height_px;
+    MixtureOptions options = mixtureOptions(config.lobes, MixtureOrder::kColours, 0);
+    options.surface = MixtureSurface::kTexels;
+    const std::uint64_t fine =
+        normalMapBytes(width, height, false) + mixtureFitBytes(width, height, options);
+    return {config.half_texels ? own / 2 : own, fine + own};
+  }
+  const std::uint64_t fit =
+      mixtureFitBytes(width_px, height_px, mixtureOptions(config.lobes, MixtureOrder::kColours, 0));
+  if (!config.half_texels) return {own, fit};
+  return {own / 2, std::max(fit, own + own / 2)};
+}
+
 }  // namespace
+
+TextureNeed textureNeed(int width_px, int height_px, const KernelConfig& config) {
+  const auto chain = [&](int vectors) { return chainBytes(width_px, height_px, vectors); };
+  const auto alone = [](std::uint64_t bytes) { return TextureNeed{bytes, bytes}; };
+  const auto fit = [&](int lobes) {
+    return mixtureFitBytes(width_px, height_px, mixtureOptions(lobes, MixtureOrder::kColours, 0));
+  };
+  switch (config.normal_method) {
+    case NormalMethod::kFixed:
+      return alone(static_cast<std::uint64_t>(width_px) * static_cast<std::uint64_t>(height_px) *
+                   sizeof(float4));
+    case NormalMethod::kMip:
+    case NormalMethod::kToksvig:
+    case NormalMethod::kVmf:
+      return alone(chain(1));
+    case NormalMethod::kLean:
+    case NormalMethod::kLeadr:
+      return alone(chain(2));
+    case NormalMethod::kFournier:
+      return {chain(config.peaks), fit(config.peaks)};
+    case NormalMethod::kGmm:
+      return mixtureNeed(width_px, height_px, config);
+    case NormalMethod::kVmfLobes:
+      return {chain(config.lobes), fit(config.lobes) + chain(config.lobes)};
+    case NormalMethod::kAnisotropic:
+      return {chain(covarianceVectors(config.lobes)),
+              fit(config.lobes) + chain(covarianceVectors(config.lobes))};
+  }
+  return {};
+}
 
 bool readsMixture(NormalMethod method) {
   return method == NormalMethod::kGmm || method == NormalMethod::kVmfLobes ||
@@ -162,9 +232,8 @@ const NormalTexture& NormalTextures::get(const std::shared_ptr<const NormalMap>&
   if (method == NormalMethod::kLeadr) method = NormalMethod::kLean;
   const bool mixture = readsMixture(method);
   const bool gmm = method == NormalMethod::kGmm;
-  const bool for_area_lights =
-      gmm ? config.ltc_method == LtcMethod::kMixture && canInterpolate(*map)
-          : config.ltc && method == NormalMethod::kToksvig;
+  const bool for_area_lights = gmm ? mixesSurface(config, map->width_px, map->height_px)
+                                   : config.ltc && method == NormalMethod::kToksvig;
   const int lobes = mixture ? config.lobes : method == NormalMethod::kFournier ? config.peaks : 0;
   const Key key = {map,
                    method,

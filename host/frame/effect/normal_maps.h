@@ -1,5 +1,6 @@
 // Normal maps on the device, in the form that the chosen method reads.
 #pragma once
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
@@ -18,6 +19,13 @@ struct NormalTexture {
   Buffer texels;
   std::size_t texel_bytes = 0;
 };
+
+/// What making a texture takes [bytes]: the buffer that stays, and the most that is held on the
+/// host meanwhile, on processors that buffer included; the map itself comes to it.
+struct TextureNeed {
+  std::uint64_t buffer_bytes = 0, host_bytes = 0;
+};
+TextureNeed textureNeed(int width_px, int height_px, const KernelConfig& config);
 
 /// Does a method read a mixture of normals, of as many lobes as the material has?
 bool readsMixture(NormalMethod method);

@@ -1,6 +1,7 @@
 // Image files.
 #pragma once
 #include <filesystem>
+#include <glm/glm.hpp>
 #include <string>
 #include <string_view>
 
@@ -33,7 +34,11 @@ Image readColours(const std::filesystem::path& path);
 /// readColours.
 Image readNormals(const std::filesystem::path& path);
 
-/// The same of a file in memory; `name` is for messages.
+/// Texels each way of what readNormals gives, by the file's head alone. Throws Error like
+/// readImage.
+glm::ivec2 normalsSize(const std::filesystem::path& path);
+
+/// readNormals of a file in memory; `name` is for messages.
 Image decodeNormals(std::string_view bytes, const std::string& name);
 
 /// The lower-case extension of `path` if it is one of `.exr` and `.png`; throws Error otherwise.

@@ -28,7 +28,7 @@ enum class Question : std::uint8_t { kPart, kHasParts, kRead };
 
 struct Request {
   Question question = Question::kHasParts;
-  int part = 0, begin = 0, end = 0;
+  int part = 0, begin = 0, end = 0, first_row = 0, rows = 0;
   std::uint64_t values = 0;
 };
 
@@ -36,7 +36,7 @@ struct Request {
 struct PartNumbers {
   bool is_there = false, deep = false;
   int x = 0, y = 0, width = 0, height = 0, depth = 1;
-  int full_x = 0, full_y = 0, full_width = 0, full_height = 0, orientation = 1;
+  int full_x = 0, full_y = 0, full_width = 0, full_height = 0, orientation = 1, band_rows = 1;
   float step = 0;
   std::array<float, 3> luminance{};
   std::uint64_t channels = 0;
@@ -82,6 +82,7 @@ class Answers {
            part->full_width,
            part->full_height,
            part->orientation,
+           part->band_rows,
            part->step,
            part->luminance,
            part->channel_names.size()};
@@ -96,7 +97,8 @@ class Answers {
     std::string fault;
     try {
       pixels.resize(request.values);
-      fault = image.read(request.part, request.begin, request.end, pixels);
+      fault = image.read(request.part, request.begin, request.end, request.first_row, request.rows,
+                         pixels);
     } catch (const std::bad_alloc&) {
       fault = "it needs more memory than is free";
     }
@@ -153,7 +155,7 @@ class IsolatedImage : public StoredImage {
     part.x = n.x, part.y = n.y, part.width = n.width, part.height = n.height, part.depth = n.depth;
     part.full_x = n.full_x, part.full_y = n.full_y;
     part.full_width = n.full_width, part.full_height = n.full_height;
-    part.orientation = n.orientation, part.step = n.step;
+    part.orientation = n.orientation, part.band_rows = n.band_rows, part.step = n.step;
     part.deep = n.deep, part.luminance = n.luminance;
     return part;
   }
@@ -165,8 +167,9 @@ class IsolatedImage : public StoredImage {
     return has_parts;
   }
 
-  std::string read(int part, int begin, int end, std::span<float> pixels) override {
-    ask({Question::kRead, part, begin, end, pixels.size()});
+  std::string read(int part, int begin, int end, int first_row, int rows,
+                   std::span<float> pixels) override {
+    ask({Question::kRead, part, begin, end, first_row, rows, pixels.size()});
     std::string fault = receiveText();
     if (fault.empty()) receive(pixels.data(), pixels.size() * sizeof(float));
     return fault;

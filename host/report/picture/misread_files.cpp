@@ -49,6 +49,16 @@ bool hasShiftedMapTga(std::string_view head) {
   return (head[kType] == 1 || head[kType] == 9) && number(head, kFirst, 2) != 0;
 }
 
+// Orientations from 4 on: lines that go down or up. [SMPTE 268M-2003]
+bool hasColumnsDpx(std::string_view head) {
+  constexpr std::size_t kOrientation = 768;
+  if (head.size() < kOrientation + 2) return false;
+  const bool is_big = head.starts_with("SDPX");
+  if (!is_big && !head.starts_with("XPDS")) return false;
+  const auto orientation = static_cast<unsigned char>(head[kOrientation + (is_big ? 1 : 0)]);
+  return orientation >= 4 && orientation <= 7;
+}
+
 }  // namespace
 
 std::string misreading(std::string_view head, std::string_view name) {
@@ -57,6 +67,7 @@ std::string misreading(std::string_view head, std::string_view name) {
     return "its BMP has bit masks of its own, which are not read; save it as PNG";
   if (isTga(name) && hasShiftedMapTga(head))
     return "its TGA has a colour map that does not begin at 0, which is not read; save it as PNG";
+  if (hasColumnsDpx(head)) return "its DPX lies in columns, which are misread; save it as PNG";
   return {};
 }
 

@@ -11,10 +11,13 @@
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
 #include "host/core/free_memory.h"
+#include "host/core/progress.h"
+#include "host/core/stopwatch.h"
 #include "host/report/picture/image_io.h"
 #include "host/report/picture/image_layers.h"
 #include "host/report/picture/load_codec.h"
 #include "host/report/picture/misread_files.h"
+#include "host/report/picture/tagged_files.h"
 
 namespace glintmark {
 namespace {
@@ -74,13 +77,24 @@ class ImageSource {
     const StoredPart part = partOf(number);
     const int channels = end - begin;
     checkSize(part, channels);
-    Image image(part.width, part.height, channels);
+    Image image;
+    image.width = part.width, image.height = part.height, image.channels = channels;
     image.channel_names.assign(part.channel_names.begin() + begin,
                                part.channel_names.begin() + end);
     image.step = part.step;
-    const std::string fault = file_->read(number, begin, end, image.pixels);
-    if (!fault.empty()) fail(fault);
+    readBands(number, part, begin, end, image);
+    if (webp_.has_alpha) requireOpaque(number, part);
     return turned(framed(std::move(image), part), part.orientation);
+  }
+
+  /// Pixels each way of what read() gives.
+  glm::ivec2 size(int number) {
+    const StoredPart part = partOf(number);
+    checkSide(part);
+    const bool is_framed = part.full_width > 0 && part.full_height > 0;
+    const glm::ivec2 size = is_framed ? glm::ivec2(part.full_width, part.full_height)
+                                      : glm::ivec2(part.width, part.height);
+    return swapsSides(part.orientation) ? glm::ivec2(size.y, size.x) : size;
   }
 
   /// Of red, green and blue in a part's luminance.
@@ -89,12 +103,25 @@ class ImageSource {
   int channelCount(int number) { return static_cast<int>(partOf(number).channel_names.size()); }
 
  private:
-  void checkHead(const std::filesystem::path& path) const {
+  void checkHead(const std::filesystem::path& path) {
     InputFile file(path);
     std::string head(kMisreadHead_bytes, '\0');
     head.resize(file.read(head.data(), head.size()));
-    const std::string fault = misreading(head, name_);
+    std::string fault = misreading(head, name_);
+    if (fault.empty()) fault = misreadingTiff(path, head);
     if (!fault.empty()) fail(fault);
+    webp_ = webpFacts(path, head);
+  }
+
+  /// OpenImageIO multiplies the colours of WebP files by alpha, whatever it is asked for.
+  void requireOpaque(int number, const StoredPart& part) {
+    const auto alpha = std::ranges::find(part.channel_names, "A");
+    if (alpha == part.channel_names.end()) return;
+    const auto channel = static_cast<int>(alpha - part.channel_names.begin());
+    Image values;
+    readBands(number, part, channel, channel + 1, values);
+    if (std::ranges::any_of(values.pixels, [](float value) { return value < 1; }))
+      fail("its WebP is transparent in places, which is read with wrong colours; save it as PNG");
   }
 
   void requireFlat(const std::string& fault) {
@@ -107,15 +134,43 @@ class ImageSource {
   StoredPart partOf(int number) {
     std::optional<StoredPart> part = file_->part(number);
     if (!part) fail(fmt::format("it has no part {}", number));
+    if (webp_.orientation != 1) part->orientation = webp_.orientation;
     return *part;
   }
 
-  void checkSize(const StoredPart& part, int channels) const {
+  /// Stops at the first rows that cannot be read, before memory for the others is touched.
+  void readBands(int number, const StoredPart& part, int begin, int end, Image& image) {
+    constexpr double kSilent_ns = 2e9;
+    const Stopwatch watch;
+    Progress progress(false);
+    const std::size_t row_values =
+        static_cast<std::size_t>(part.width) * static_cast<std::size_t>(end - begin);
+    image.pixels.reserve(row_values * static_cast<std::size_t>(part.height));
+    for (int first = 0, rows = 0; first < part.height; first += rows) {
+      rows = std::min(std::max(1, part.band_rows), part.height - first);
+      const std::size_t done = image.pixels.size();
+      image.pixels.resize(done + static_cast<std::size_t>(rows) * row_values);
+      const std::string fault =
+          file_->read(number, begin, end, first, rows, std::span(image.pixels).subspan(done));
+      if (!fault.empty()) fail(fault);
+      if (watch.elapsedNs() > kSilent_ns)
+        progress.show(static_cast<int>(100.0 * (first + rows) / part.height), 100,
+                      "% of image " + name_);
+    }
+  }
+
+  void checkSide(const StoredPart& part) const {
     const std::int64_t width = std::max(part.width, part.full_width);
     const std::int64_t height = std::max(part.height, part.full_height);
     if (part.width < 1 || part.height < 1 || width > kMaxSide_px || height > kMaxSide_px)
       fail(fmt::format("it has {}x{} pixels, expected 1 to {} each way", width, height,
                        kMaxSide_px));
+  }
+
+  void checkSize(const StoredPart& part, int channels) const {
+    checkSide(part);
+    const std::int64_t width = std::max(part.width, part.full_width);
+    const std::int64_t height = std::max(part.height, part.full_height);
     // The pixels, and what the reader holds of them.
     requireMemory(static_cast<std::uint64_t>(width * height * channels) * (sizeof(float) + 4),
                   fmt::format("image {} of {}x{} pixels", name_, width, height));
@@ -138,10 +193,12 @@ class ImageSource {
     return frame;
   }
 
+  static bool swapsSides(int orientation) { return orientation > 4 && orientation <= 8; }
+
   /// By the eight orientations of TIFF and Exif.
   static Image turned(Image image, int orientation) {
     if (orientation < 2 || orientation > 8) return image;
-    const bool swaps = orientation > 4;
+    const bool swaps = swapsSides(orientation);
     Image out(swaps ? image.height : image.width, swaps ? image.width : image.height,
               image.channels);
     out.channel_names = image.channel_names;
@@ -159,6 +216,7 @@ class ImageSource {
   }
 
   std::string name_;
+  WebpFacts webp_;
   std::unique_ptr<StoredImage> file_;
 };
 
@@ -234,13 +292,21 @@ std::string listOf(const std::vector<ImageLayer>& layers) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-Image readFor(ImageSource& source, ImageUse use, const std::string& wanted) {
-  const std::vector<ImageLayer> layers = source.layers();
+// The layers that may be meant, one at least.
+std::vector<const ImageLayer*> meantLayers(const ImageSource& source,
+                                           const std::vector<ImageLayer>& layers, ImageUse use,
+                                           const std::string& wanted) {
   const std::vector<const ImageLayer*> found = candidatesFor(layers, use, wanted);
   if (found.empty())
     source.fail(wanted.empty() ? std::string("it has no channels to be used")
                                : fmt::format("it has no layer '{}', its layers are {}", wanted,
                                              listOf(layers)));
+  return found;
+}
+
+Image readFor(ImageSource& source, ImageUse use, const std::string& wanted) {
+  const std::vector<ImageLayer> layers = source.layers();
+  const std::vector<const ImageLayer*> found = meantLayers(source, layers, use, wanted);
   if (found.size() == 1) return readLayer(source, *found[0], use);
   // Several may be meant: the one that holds unit normals, if that is what is looked for.
   std::vector<const ImageLayer*> normals;
@@ -288,6 +354,13 @@ Image readColours(const std::filesystem::path& path) {
 
 Image readNormals(const std::filesystem::path& path) {
   return readFileFor(path, ImageUse::kNormals);
+}
+
+glm::ivec2 normalsSize(const std::filesystem::path& path) {
+  const auto [file, layer] = splitLayer(path);
+  ImageSource source(file);
+  const std::vector<ImageLayer> layers = source.layers();
+  return source.size(meantLayers(source, layers, ImageUse::kNormals, layer).front()->part);
 }
 
 Image decodeNormals(std::string_view bytes, const std::string& name) {
