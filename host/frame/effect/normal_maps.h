@@ -19,6 +19,9 @@ struct NormalTexture {
   std::size_t texel_bytes = 0;
 };
 
+/// What eight float4 of method anisotropic hold.
+inline constexpr int kMostAnisotropicLobes = 5;
+
 /// Does a method read a mixture of normals, of as many lobes as the material has?
 bool readsMixture(NormalMethod method);
 
