@@ -9,6 +9,7 @@
 
 #include "host/cli/command_line.h"
 #include "host/core/error.h"
+#include "host/core/output_files.h"
 #include "host/core/progress.h"
 #include "host/experiment/rank_watch.h"
 #include "host/parallel/ranks.h"
@@ -106,6 +107,7 @@ int runProgram(int argc, const char* const* argv) {
   if (launched().rank > 0) muteOutput();
   if (const std::optional<int> done = parser.parse(argc, argv)) return *done;
   joinRanksOf(line);
+  const InputGuard guard;
   if (line.common.quiet) Progress::silenceAll();
   return line.action();
 }

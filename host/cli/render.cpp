@@ -7,11 +7,10 @@
 #include <optional>
 
 #include "host/cli/command_line.h"
-#include "host/cli/own_files.h"
 #include "host/cli/picture_verdict.h"
 #include "host/cli/shading_flags.h"
-#include "host/core/atomic_file.h"
 #include "host/core/error.h"
+#include "host/core/output_files.h"
 #include "host/core/progress.h"
 #include "host/core/trace.h"
 #include "host/experiment/run_inputs.h"
@@ -118,7 +117,7 @@ int runZoom(const CommonOptions& common, const RenderOptions& options,
   bool is_finite = true, is_lit = false;
   const auto judge = [&](const Image& radiance) {
     is_finite = is_finite && isSane(radiance);
-    is_lit = is_lit || radianceFault(radiance).empty();
+    is_lit = is_lit || hasLight(radiance);
   };
   writePng(zoomStrip(device, scene, view, shading, options.zoom, exposure, common.threads, judge),
            options.output);
@@ -131,18 +130,17 @@ int runZoom(const CommonOptions& common, const RenderOptions& options,
 
 void checkRenderOptions(const RenderOptions& options) {
   const std::string extension = requireImageExtension(options.output);
-  requireWritableFile(options.output);
   if (!options.aov_output.empty()) {
     if (requireImageExtension(options.aov_output) != ".exr") {
       throw Error(
           fmt::format("--aov '{}' must end in .exr: planes are floats", options.aov_output));
     }
-    requireWritableFile(options.aov_output);
   }
   if (options.exposure && !(*options.exposure > 0)) {
     throw Error(fmt::format("--exposure {} is not a positive number", *options.exposure));
   }
-  if (!options.trace.empty()) requireWritableFile(options.trace);
+  announceOutputs(
+      {{"-o", options.output}, {"--aov", options.aov_output}, {"--trace", options.trace}});
   if (options.truth_spp < 0 || options.truth_spp > kMostTruthSpp)
     throw Error(fmt::format("--truth {} is not from 1 to {} samples a pixel", options.truth_spp,
                             kMostTruthSpp));
@@ -278,9 +276,6 @@ void writePlanes(const Scene& scene, const Camera& camera, int threads, const st
 
 int runRender(const CommandLine& line, const RenderOptions& options) {
   const CommonOptions& common = line.common;
-  requireOwnFiles(
-      {{"-o", options.output}, {"--aov", options.aov_output}, {"--trace", options.trace}},
-      sceneInputs(common, options.scene));
   checkRenderOptions(options);
   const ImageSize size = parseSize(options.size);
   if (!options.aov_output.empty()) requireMemoryForPlanes(size.width_px, size.height_px);
@@ -339,7 +334,7 @@ constexpr char kRenderExamples[] =
     "    --normal-method lean && glintmark diff lean.exr truth.exr -o error.png\n"
     "  glintmark render disk --view oblique -o relief.exr --truth 64 --displaced\n"
     "  glintmark render snow -o snow.png --frames 24 --path orbit --step 0.5\n"
-    "  glintmark render snow -o snow.png --trace trace.json    (open it at ui.perfetto.dev)";
+    "  glintmark render snow -o snow.png --trace trace.json    # open it at ui.perfetto.dev";
 
 }  // namespace
 
