@@ -329,7 +329,7 @@ constexpr char kRenderExamples[] =
     "  glintmark render snow -o snow.png --view grazing\n"
     "  glintmark render sand -o sand.exr --star --size 3840x2160\n"
     "  glintmark render screen_plane -o zoom.png --zoom 20 --size 128x128\n"
-    "  glintmark render car -o car.png --aov planes.exr --set material.paint.log_density=7\n"
+    "  glintmark render car -o car.png --aov planes.exr --set material.metal.log_density=7\n"
     "  glintmark render disk -o truth.exr --truth 256 && glintmark render disk -o lean.exr \\\n"
     "    --normal-method lean && glintmark diff lean.exr truth.exr -o error.png\n"
     "  glintmark render disk --view oblique -o relief.exr --truth 64 --displaced\n"

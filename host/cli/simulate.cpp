@@ -156,7 +156,7 @@ std::string energyTable(const Simulation& simulation, double albedo) {
                               : static_cast<double>(simulation.absorbed()) / rays;
   return table.toString() +
          fmt::format(
-             "\nescaped {:.6f}, absorbed {:.6f}, left over after order {} {:.6f}; "
+             "\nescaped {:.6f}, absorbed {:.6f}, left over after order {} {:.6f}\n"
              "counted {:.9f} of the rays\n",
              above + below, absorbed, simulation.settings.orders, left, simulation.balance());
 }
@@ -175,8 +175,9 @@ std::string slopesText(const Simulator& simulator, const SimulationSettings& set
       slopeMoments(simulator.surface().readCounts(), simulator.surface().countHeight());
   const glm::dvec2 nominal = 0.5 * settings.alpha * settings.alpha;
   return fmt::format(
-      "slope variance along x and y: {:.6f} and {:.6f} nominal, {:.6f} and {:.6f} effective in the "
-      "last surface\n",
+      "slope variance along x and y: {:.6f} and {:.6f} nominal,\n{:.6f} and {:.6f} effective in "
+      "the last "
+      "surface\n",
       nominal.x, nominal.y, 2 * nominal.x * m.variance_x, 2 * nominal.y * m.variance_y);
 }
 

@@ -64,15 +64,14 @@ TEST_F(Diff, BadInput) {
 }
 
 // Of a broken picture one sentence is said, not what its library prints besides.
-TEST(Diff, SaysOfBrokenPicturesOneSentence) {
-  const TempFolder folder;
-  writePng(Image(64, 64, 3), folder / "a.png");
-  const std::string whole = readFile(folder / "a.png");
+TEST_F(Diff, SaysOfBrokenPicturesOneSentence) {
+  writePng(Image(64, 64, 3), folder_ / "a.png");
+  const std::string whole = readFile(folder_ / "a.png");
   for (const std::size_t at : {whole.find("IDAT") + 6, whole.size() - 6}) {
     std::string broken = whole;
     broken[at] = static_cast<char>(broken[at] ^ 0x55);
-    writeFile(folder / "b.png", broken);
-    const ProcessResult result = runGlintmark({"diff", folder / "b.png", folder / "a.png"});
+    writeFile(folder_ / "b.png", broken);
+    const ProcessResult result = runGlintmark({"diff", folder_ / "b.png", folder_ / "a.png"});
     EXPECT_EQ(std::ranges::count(result.err, '\n'), result.exit_code == 0 ? 0 : 1) << result.err;
     EXPECT_EQ(result.err.find("libpng"), std::string::npos) << result.err;
   }

@@ -107,7 +107,8 @@ class ExampleFolder {
   ExampleFolder() {
     Image picture(16, 16, 3);
     for (float& value : picture.pixels) value = 0.5f;
-    for (const char* name : {"zk16", "exact", "a", "b", "lean", "truth", "height", "normals"}) {
+    for (const char* name :
+         {"zk16", "exact", "a", "b", "lean", "truth", "height", "stone_normal"}) {
       writeExr(picture, folder_ / (std::string(name) + ".exr"));
       writePng(picture, folder_ / (std::string(name) + ".png"));
     }
@@ -115,9 +116,9 @@ class ExampleFolder {
     const fs::path run = kSource / "results/pocl-3.1-xeon-avx512-2-cores/2026-11-30/results.json";
     for (const char* name :
          {"before", "after", "mine", "yours", "theirs", "results/latest", "results/one/2026-11-26",
-          "results/two/2026-11-26", "results/scale", "docs"}) {
+          "results/two/2026-11-26", "results/scale", "docs", "data"}) {
       fs::create_directories(folder_ / name);
-      if (std::string(name) != "docs") fs::copy_file(run, folder_ / name / "results.json");
+      if (std::string(name).front() != 'd') fs::copy_file(run, folder_ / name / "results.json");
     }
   }
 

@@ -81,6 +81,25 @@ TEST(TerminalText, TheFirstColumnMayHoldWords) {
             "absolute                      0\n");
 }
 
+TEST(TerminalText, ColumnsOfWordsAreBroken) {
+  TextTable table({"check", "bound", "of"});
+  table.addRow({"device/types", "0", "bytes of difference in size"});
+  table.addRow({"device/fma", "1e-7", "error of chains"});
+  EXPECT_EQ(fitted(table.toString(), 24),
+            "check         bound\n"
+            "-------------------\n"
+            "device/types      0\n"
+            "device/fma     1e-7\n"
+            "\n"
+            "check         of\n"
+            "------------------------\n"
+            "device/types  bytes of\n"
+            "            difference\n"
+            "            in size\n"
+            "device/fma    error of\n"
+            "            chains\n");
+}
+
 TEST(TerminalText, LongNamesOfRowsTakeSeveralLines) {
   TextTable table({"case", "ms"});
   table.addRow({"area_cloth/near/original", "1234.5"});

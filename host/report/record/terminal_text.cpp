@@ -15,7 +15,6 @@ namespace glintmark {
 namespace {
 
 constexpr std::size_t kLeastColumns = 20, kMostColumns = 1000;
-constexpr std::size_t kLeastKey = 8;  // columns of a table's first
 
 std::vector<std::string> linesOf(std::string_view text) {
   std::vector<std::string> lines;
@@ -58,8 +57,9 @@ class Table {
     std::size_t widest = 0;
     for (std::size_t c = 1; c < columns_.size(); ++c)
       widest = std::max(widest, columns_[c].end - columns_[c - 1].end);
+    // Where a column of words leaves less than half of the line, its cells are broken too.
     const std::size_t key =
-        std::min(columns_.front().end, std::max(kLeastKey, columns - std::min(columns, widest)));
+        std::min(columns_.front().end, std::max(columns / 2, columns - std::min(columns, widest)));
     std::string text;
     for (std::size_t c = 1; c < columns_.size();) {
       std::size_t last = c;
@@ -67,7 +67,7 @@ class Table {
              key + columns_[last + 1].end - columns_[c - 1].end <= columns)
         ++last;
       if (c > 1) text += '\n';
-      text += part(key, columns_[c - 1].end, columns_[last].end);
+      text += part(key, columns_[c - 1].end, columns_[last].end, columns);
       c = last + 1;
     }
     return text;
@@ -80,9 +80,9 @@ class Table {
     std::size_t begin, end;
   };
 
-  // Between columns of blanks in every line. Words of rows below no header belong to the column on
-  // their left, and so does what goes on in the first one's header; other words of a header that
-  // stand over nothing belong to the right, where numbers end below the last one's end.
+  // Between columns of blanks in every line. Words below no header, and those of a header over
+  // nothing, belong to the column on their right, where all end; next to the first column, which
+  // is aligned to the left, to this.
   void findColumns() {
     std::vector<int> used(columnsOf(lines_[1]), 0);  // 1: by the header, 2: by rows, 3: by both
     for (std::size_t i = 0; i < lines_.size(); ++i) {
@@ -99,27 +99,31 @@ class Table {
       const std::size_t begin = c;
       int by = 0;
       for (; c < used.size() && used[c] != 0; ++c) by |= used[c];
-      const bool goes_on = columns_.size() == 1 && by == 1 && begin == columns_.front().end + 1;
-      if (!columns_.empty() && (over_nothing || by == 2 || goes_on))
+      const bool goes_on =
+          columns_.size() == 1 && (by == 2 || (by == 1 && begin == columns_.front().end + 1));
+      if (over_nothing || goes_on)
         columns_.back().end = c;
       else
         columns_.push_back({begin, c});
-      over_nothing = by == 1 && !goes_on && columns_.size() > 1;
+      over_nothing = by != 3 && !goes_on && columns_.size() > 1;
     }
   }
 
   // Columns from `begin` on to `end`, the first of the table before them.
-  std::string part(std::size_t key, std::size_t begin, std::size_t end) const {
+  std::string part(std::size_t key, std::size_t begin, std::size_t end, std::size_t columns) const {
     std::string text;
     for (const std::string& line : lines_) {
       if (isRule(line)) {
-        text += std::string(key + end - begin, '-') + '\n';
+        text += std::string(std::min(columns, key + end - begin), '-') + '\n';
         continue;
       }
       const std::vector<std::string> names =
           cellLines(withoutTail(cut(line, 0, columns_.front().end)), key);
       const std::string padding(key - std::min(key, columnsOf(names.front())), ' ');
-      text += withoutTail(names.front() + padding + cut(line, begin, end)) + '\n';
+      std::string cells = cut(line, begin, end);
+      if (key + end - begin > columns)
+        cells = "  " + cells.substr(std::min(cells.find_first_not_of(' '), cells.size()));
+      text += withoutTail(wrapped(names.front() + padding + cells, columns, key + 2)) + '\n';
       for (std::size_t i = 1; i < names.size(); ++i) text += names[i] + '\n';
     }
     return text;
