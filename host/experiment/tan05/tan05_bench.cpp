@@ -12,7 +12,6 @@
 #include "host/experiment/tan05/tan05_table.h"
 #include "host/experiment/tan05/tan05_view.h"
 #include "host/frame/effect/normal_maps.h"
-#include "host/ocl/switches.h"
 #include "host/report/record/case_name.h"
 
 namespace glintmark {
@@ -59,10 +58,11 @@ MethodsByScene methodsByScene(const BenchRun& run) {
     if (quiet.overrides.empty()) continue;
     own = tan05MethodsOf(openScene(quiet, name));
     if (own.size() < tan05Methods().size() && !run.session().common.quiet)
-      fmt::print(stderr,
-                 "note: scene {} has more lobes than the {} that method {} takes, which is "
-                 "left out\n",
-                 name, kMostAnisotropicLobes, choiceName(NormalMethod::kAnisotropic));
+      fmt::print(
+          stderr,
+          "note: scene {} has more lobes than the {} that method anisotropic takes, which is "
+          "left out\n",
+          name, kMostAnisotropicLobes);
   }
   return methods;
 }
