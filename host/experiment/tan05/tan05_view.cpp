@@ -179,14 +179,9 @@ const std::vector<Tan05Method>& tan05Methods() {
 }
 
 std::vector<Tan05Method> tan05MethodsOf(const Scene& scene) {
-  int lobes = 0;
-  for (const Material& material : scene.materials)
-    if (material.normal_map) lobes = std::max(lobes, material.normal_map->lobes);
   std::vector<Tan05Method> methods = tan05Methods();
-  std::erase_if(methods, [&](const Tan05Method& method) {
-    const int own = method.lobes > 0 ? method.lobes : lobes;
-    return method.method == NormalMethod::kAnisotropic && own > kMostAnisotropicLobes;
-  });
+  std::erase_if(methods,
+                [&](const Tan05Method& method) { return !takesLobesOf(method.method, scene); });
   return methods;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -145,6 +146,13 @@ NormalTexture makeTexture(Device& device, const NormalMap& map, NormalMethod met
 bool readsMixture(NormalMethod method) {
   return method == NormalMethod::kGmm || method == NormalMethod::kVmfLobes ||
          method == NormalMethod::kAnisotropic;
+}
+
+bool takesLobesOf(NormalMethod method, const Scene& scene) {
+  return method != NormalMethod::kAnisotropic ||
+         std::ranges::none_of(scene.materials, [](const Material& material) {
+           return material.normal_map && material.normal_map->lobes > kMostAnisotropicLobes;
+         });
 }
 
 MixtureOptions mixtureOptions(int lobes, MixtureOrder order, int iterations) {
