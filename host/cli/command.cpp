@@ -161,7 +161,13 @@ CommandOption& CommandOption::values(int least, int most) {
 }
 
 CommandOption& CommandOption::nonNegative() {
-  option_->check(CLI::NonNegativeNumber);
+  option_->check(CLI::Validator(
+      [](const std::string& text) {
+        double value = 0;
+        const bool right = CLI::detail::lexical_cast(text, value) && value >= 0;
+        return right ? std::string() : fmt::format("'{}' is not a number from 0 on", text);
+      },
+      ""));
   return *this;
 }
 
@@ -183,7 +189,12 @@ void Command::shareOptions() {
 
 template <typename T>
 CommandOption Command::option(const std::string& names, T& value, const std::string& help) {
-  return CommandOption(*app_->add_option(names, value, help));
+  CLI::Option* option = app_->add_option(names, value, help);
+  // An empty value is that of a variable of a shell that was never set.
+  option->check(CLI::Validator(
+      [](const std::string& text) { return std::string(text.empty() ? "its value is empty" : ""); },
+      ""));
+  return CommandOption(*option);
 }
 
 template CommandOption Command::option(const std::string&, std::string&, const std::string&);

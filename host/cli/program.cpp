@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <optional>
 
 #include "host/cli/command_line.h"
@@ -106,6 +107,9 @@ int runProgram(int argc, const char* const* argv) {
 
   if (launched().rank > 0) muteOutput();
   if (const std::optional<int> done = parser.parse(argc, argv)) return *done;
+  if (const std::string& assets = line.common.asset_folder;
+      !assets.empty() && !std::filesystem::is_directory(assets))
+    throw Error(fmt::format("--assets '{}' is not a folder", assets));
   joinRanksOf(line);
   const InputGuard guard;
   if (line.common.quiet) Progress::silenceAll();

@@ -52,6 +52,7 @@ struct RenderOptions {
   double step = 0.1;
   bool frames_given = false, step_given = false;
   int zoom = 0;  // octaves; 0: one picture
+  bool truth_given = false, zoom_given = false;
   bool no_glints = false;
   bool star = false, star_chosen = false;
   bool background = false, background_chosen = false;
@@ -141,7 +142,9 @@ void checkRenderOptions(const RenderOptions& options) {
   }
   announceOutputs(
       {{"-o", options.output}, {"--aov", options.aov_output}, {"--trace", options.trace}});
-  if (options.truth_spp < 0 || options.truth_spp > kMostTruthSpp)
+  if (options.zoom_given && options.zoom == 0)
+    throw Error("--zoom 0 is no zoom; leave it out, or say over how many octaves");
+  if (options.truth_given && (options.truth_spp < 1 || options.truth_spp > kMostTruthSpp))
     throw Error(fmt::format("--truth {} is not from 1 to {} samples a pixel", options.truth_spp,
                             kMostTruthSpp));
   if (options.displaced && (options.truth_spp == 0 || options.frames_given))
@@ -353,10 +356,11 @@ void addRenderCommand(Command app, CommandLine& line) {
       .typeName("FILE");
   options->flags.addGlintOptions(command);
   options->flags.addSurfaceOptions(command);
-  command
-      .option("--truth", options->truth_spp,
-              "The ground truth by so many samples a pixel, in place of any method")
-      .typeName("N");
+  const CommandOption truth =
+      command
+          .option("--truth", options->truth_spp,
+                  "The ground truth by so many samples a pixel, in place of any method")
+          .typeName("N");
   const CommandOption frames =
       command.option("--frames", options->frames, "So many pictures along --path, FILE_0000 and on")
           .typeName("N");
@@ -367,10 +371,11 @@ void addRenderCommand(Command app, CommandLine& line) {
           .option("--step", options->step,
                   "From picture to picture: degrees, or per cent of the distance (default: 0.1)")
           .typeName("X");
-  command
-      .option("--zoom", options->zoom,
-              "Strip of pictures over so many octaves, through ever narrower fields of view")
-      .typeName("OCTAVES");
+  const CommandOption zoom =
+      command
+          .option("--zoom", options->zoom,
+                  "Strip of pictures over so many octaves, through ever narrower fields of view")
+          .typeName("OCTAVES");
   command.flag("--displaced", options->displaced,
                "With --truth: heights of the map stand up from a flat mesh, hide and shade");
   command.flag("--no-glints", options->no_glints, "Smooth lobes in place of glints");
@@ -381,7 +386,9 @@ void addRenderCommand(Command app, CommandLine& line) {
                    "The environment behind the meshes (default: for PNG)");
   command.option("--exposure", options->exposure, "Scale before tone mapping").typeName("X");
   command.footer(kRenderExamples);
-  command.callback([options, star, background, frames, step, &line] {
+  command.callback([options, star, background, frames, step, truth, zoom, &line] {
+    options->truth_given = truth.given();
+    options->zoom_given = zoom.given();
     options->step_given = step.given();
     options->star_chosen = star.given();
     options->background_chosen = background.given();
