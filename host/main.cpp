@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <new>
 #include <string>
@@ -39,6 +40,10 @@ int main(int argc, char** argv) {
     return glintmark::endRanks(error.what(), error.code());
   } catch (const glintmark::Interrupted& interrupted) {
     return glintmark::interruptRanks(interrupted.what(), glintmark::InterruptGuard::exitCode());
+  } catch (const std::filesystem::filesystem_error& error) {
+    // Of a name that the system does not take: too long, or below a file.
+    return glintmark::endRanks(error.path1().string() + ": " + error.code().message(),
+                               glintmark::kExitBadInput);
   } catch (const std::system_error& error) {
     if (std::ferror(stdout)) return afterOutput(glintmark::kExitBadInput);
     return internalError(error);

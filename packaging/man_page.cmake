@@ -1,6 +1,7 @@
 # Writes OUTPUT, a manual of PROGRAM made from its --help and that of its commands; VERSION is its own.
 function(help_of output)
-  execute_process(COMMAND ${PROGRAM} ${ARGN} --help OUTPUT_VARIABLE text COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND ${CMAKE_COMMAND} -E env COLUMNS=72 ${PROGRAM} ${ARGN} --help
+                  OUTPUT_VARIABLE text COMMAND_ERROR_IS_FATAL ANY)
   set(${output} "${text}" PARENT_SCOPE)
 endfunction()
 

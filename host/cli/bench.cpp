@@ -47,7 +47,7 @@ void addBenchCommand(Command app, CommandLine& line) {
       "  glintmark bench zk16 --scene sponza --view grazing --reps 25\n"
       "  glintmark bench zk16 --noise 1 --max-time 60\n"
       "  glintmark bench zk16 --resume -o results/mine --json mine.json\n"
-      "  glintmark bench tan05 --scene disk --trace trace.json    (open it at ui.perfetto.dev)");
+      "  glintmark bench tan05 --scene disk --trace trace.json    # open it at ui.perfetto.dev");
   command.callback([options, tables, noise_percent, &line] {
     options->noise = *noise_percent / 100;
     line.shares_work = line.common.own_device = true;

@@ -5,12 +5,13 @@
 #include <memory>
 
 #include "host/cli/command_line.h"
-#include "host/cli/own_files.h"
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
+#include "host/core/output_files.h"
 #include "host/experiment/all_tables.h"
 #include "host/report/record/comparison.h"
 #include "host/report/record/run_table.h"
+#include "host/report/record/terminal_text.h"
 
 namespace glintmark {
 namespace {
@@ -45,8 +46,8 @@ int compareTwo(const CompareOptions& options, const Results& before, const Resul
   const double threshold = options.threshold_percent / 100;
   const ComparisonReport report = compareResults(before, after, allTableSpecs(), threshold);
   if (!options.json.empty()) writeFile(options.json, comparisonJson(report, threshold));
-  fmt::print("{} ({}) against {} ({})\n\n{}", before.run.git, before.run.date, after.run.git,
-             after.run.date, comparisonText(report, options.all));
+  printText("{} ({}) against {} ({})\n\n{}", before.run.git, before.run.date, after.run.git,
+            after.run.date, comparisonText(report, options.all));
   return report.hasRegression() ? kExitCheckFailed : kExitDone;
 }
 
@@ -54,7 +55,7 @@ int compareMany(const CompareOptions& options, const std::vector<Results>& runs)
   const double threshold = options.threshold_percent / 100;
   const RunTable table = tabulateRuns(runs, allTableSpecs(), threshold);
   if (!options.json.empty()) writeFile(options.json, runTableJson(table, options.files, threshold));
-  fmt::print("{}", runTableText(table, runs, options.files, options.all));
+  printText("{}", runTableText(table, runs, options.files, options.all));
   return table.hasRegression() ? kExitCheckFailed : kExitDone;
 }
 
@@ -62,11 +63,7 @@ int runCompare(const CompareOptions& options) {
   if (!(options.threshold_percent >= 0 && options.threshold_percent <= 1000))
     throw Error(fmt::format("--threshold {} is not a percentage from 0 to 1000",
                             options.threshold_percent));
-  std::vector<std::string> read;
-  for (const std::string& file : options.files)
-    read.insert(read.end(), {file, (std::filesystem::path(file) / "results.json").string()});
-  requireOwnFiles({{"--json", options.json}}, read);
-  if (!options.json.empty()) requireWritableFile(options.json);
+  announceOutputs({{"--json", options.json}});
   std::vector<Results> runs;
   for (const std::string& file : options.files) runs.push_back(resultsAt(file));
   for (std::size_t i = 1; i < runs.size(); ++i) {

@@ -7,12 +7,13 @@
 #include <memory>
 
 #include "host/cli/command_line.h"
-#include "host/cli/own_files.h"
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
+#include "host/core/output_files.h"
 #include "host/report/difference/difference_picture.h"
 #include "host/report/difference/image_difference.h"
 #include "host/report/picture/image_io.h"
+#include "host/report/record/terminal_text.h"
 
 namespace glintmark {
 namespace {
@@ -40,10 +41,7 @@ void checkDiffOptions(const DiffOptions& options) {
   if (!(options.trim_percent >= 0 && options.trim_percent <= 50))
     throw Error(fmt::format("--trim {} is not a percentage from 0 to 50", options.trim_percent));
   if (!options.output.empty()) requireImageExtension(options.output);
-  requireOwnFiles({{"-o", options.output}, {"--json", options.json}},
-                  {options.picture, options.reference});
-  for (const std::string& file : {options.output, options.json})
-    if (!file.empty()) requireWritableFile(file);
+  announceOutputs({{"-o", options.output}, {"--json", options.json}});
 }
 
 // The map that --map names, and what is written beside its colours.
@@ -83,7 +81,7 @@ int runDiff(const DiffOptions& options) {
   }
   if (!options.json.empty())
     writeFile(options.json, differenceJson(d, options.picture, options.reference));
-  fmt::print("{}", differenceText(d, options.picture, options.reference));
+  printText("{}", differenceText(d, options.picture, options.reference));
   return kExitDone;
 }
 

@@ -4,15 +4,13 @@
 #include <filesystem>
 
 #include "host/cli/fit_commands.h"
-#include "host/core/atomic_file.h"
 #include "host/core/error.h"
 
 namespace glintmark {
 
-void requireWritablePicture(const std::string& file) {
-  if (std::filesystem::path(file).extension() != ".png")
-    throw Error(fmt::format("--picture '{}' must end in .png", file));
-  requireWritableFile(file);
+void requirePng(const std::string& picture) {
+  if (!picture.empty() && std::filesystem::path(picture).extension() != ".png")
+    throw Error(fmt::format("--picture '{}' must end in .png", picture));
 }
 
 void addFitCommand(Command app, CommandLine& line) {

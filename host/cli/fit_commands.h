@@ -10,7 +10,7 @@ void addFitMesoCommand(Command fit, CommandLine& line);
 void addFitLobesCommand(Command fit, CommandLine& line);
 void addFitDielectricCommand(Command fit, CommandLine& line);
 
-/// Makes sure that `file` ends in .png and can be written. Throws Error.
-void requireWritablePicture(const std::string& file);
+/// Throws Error for a --picture that is none of a PNG; it may be empty.
+void requirePng(const std::string& picture);
 
 }  // namespace glintmark

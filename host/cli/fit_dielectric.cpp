@@ -9,12 +9,14 @@
 #include "host/cli/fit_commands.h"
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
+#include "host/core/output_files.h"
 #include "host/core/progress.h"
 #include "host/experiment/interrupt.h"
 #include "host/experiment/msbrdf/lobe_picture.h"
 #include "host/fit/lobe_fit.h"
 #include "host/parallel/ranks.h"
 #include "host/report/picture/image_io.h"
+#include "host/report/record/terminal_text.h"
 #include "host/report/record/text_table.h"
 #include "host/simulate/shared_simulation.h"
 
@@ -141,9 +143,13 @@ void checkFitDielectric(const FitDielectricOptions& options) {
     throw Error(fmt::format("--rays {} is not possible; it must be {:g} to {:g}", options.rays,
                             kLeastGlassRays, kMostGlassRays));
   for (const SimulationSettings& run : dielectricRuns(options)) validate(run);
+  requirePng(options.picture);
   if (!allRanks().isFirst()) return;
-  if (!options.picture.empty()) requireWritablePicture(options.picture);
   requireWritableFolder(options.folder);
+  const std::filesystem::path folder = options.folder;
+  announceOutputs({{"--picture", options.picture},
+                   {"-o", (folder / "dielectric_lobes.csv").string()},
+                   {"-o", (folder / "dielectric_lobes.txt").string()}});
 }
 
 int runFitDielectric(const CommandLine& line, const FitDielectricOptions& options) {
@@ -175,8 +181,8 @@ int runFitDielectric(const CommandLine& line, const FitDielectricOptions& option
   writeFile(folder / "dielectric_lobes.csv", lobesCsv(lobes));
   writeFile(folder / "dielectric_lobes.txt", table);
   if (!options.picture.empty()) writePng(lobesPicture(lobes), options.picture);
-  fmt::print("{}\nmeans over incidences 0, 20, 40, 60 and 80 degrees; written to {}\n", table,
-             (folder / "dielectric_lobes.csv").string());
+  printText("{}\nmeans over incidences 0, 20, 40, 60 and 80 degrees; written to {}\n", table,
+            (folder / "dielectric_lobes.csv").string());
   return kExitDone;
 }
 

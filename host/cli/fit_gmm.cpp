@@ -8,10 +8,10 @@
 #include <optional>
 
 #include "host/cli/fit_commands.h"
-#include "host/cli/own_files.h"
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
 #include "host/core/free_memory.h"
+#include "host/core/output_files.h"
 #include "host/core/progress.h"
 #include "host/core/unknown_name.h"
 #include "host/experiment/interrupt.h"
@@ -26,6 +26,7 @@
 #include "host/parallel/ranks.h"
 #include "host/report/picture/image_io.h"
 #include "host/report/picture/picture_strip.h"
+#include "host/report/record/terminal_text.h"
 #include "host/report/record/text_table.h"
 
 namespace glintmark {
@@ -86,11 +87,9 @@ void checkFitGmm(FitGmmCommand& command) {
       static_cast<MixtureSurface>(choice("--surface", command.surface, kSurfaces));
   if (command.on == "device" && allRanks().size() > 1)
     throw Error("--on device fits on one device; start it without mpirun, or share --on host");
-  requireOwnFiles({{"-o", command.output}, {"--picture", command.picture}},
-                  {command.source, command.scene, command.check});
-  if (!allRanks().isFirst()) return;
-  if (!command.output.empty()) requireWritableFile(command.output);
-  if (!command.picture.empty()) requireWritablePicture(command.picture);
+  requirePng(command.picture);
+  if (allRanks().isFirst())
+    announceOutputs({{"-o", command.output}, {"--picture", command.picture}});
 }
 
 // Asked before the map is made: of a file's its size is read first.
@@ -236,7 +235,7 @@ void printLevels(const Fitted& fitted, MixtureSurface surface) {
                   fmt::format("{:.3f}", report.log_likelihood),
                   fmt::format("{:.4f}", measureMisalignment(fitted.mixtures, level)), at, between});
   }
-  fmt::print("{}", table.toString());
+  printText("{}", table.toString());
 }
 
 void printReport(const FitGmmCommand& command, const Fitted& fitted) {
@@ -255,7 +254,7 @@ void printReport(const FitGmmCommand& command, const Fitted& fitted) {
     const double count = static_cast<double>(report.width_px) * report.height_px;
     limited += count * (1 - report.converged_share), texels += count;
   }
-  fmt::print("{:.1f} % of the texels stopped at the limit of EM steps\n", 100 * limited / texels);
+  printText("{:.1f} % of the texels stopped at the limit of EM steps\n", 100 * limited / texels);
 }
 
 // The mixtures and, below them, what the same texels get without neighbours.

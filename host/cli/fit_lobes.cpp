@@ -7,9 +7,9 @@
 #include <span>
 
 #include "host/cli/fit_commands.h"
-#include "host/cli/own_files.h"
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
+#include "host/core/output_files.h"
 #include "host/core/progress.h"
 #include "host/core/stopwatch.h"
 #include "host/experiment/interrupt.h"
@@ -17,6 +17,7 @@
 #include "host/parallel/ranks.h"
 #include "host/reference/microfacet.h"
 #include "host/report/picture/image_io.h"
+#include "host/report/record/terminal_text.h"
 
 namespace glintmark {
 namespace {
@@ -34,6 +35,11 @@ struct FitLobesOptions {
   std::string folder = "results/latest", data, picture;
   double rays = 1 << 21, mirror_rays = 1 << 17;
 };
+
+std::filesystem::path dataFile(const FitLobesOptions& options) {
+  return options.data.empty() ? std::filesystem::path(options.folder) / "multiscatter.json"
+                              : std::filesystem::path(options.data);
+}
 
 // A FittedLobe as ranks share it.
 struct LobeNumbers {
@@ -228,8 +234,7 @@ std::string LobeFitRun::tables() const {
 
 int LobeFitRun::run() {
   const std::filesystem::path folder = options_.folder;
-  const std::filesystem::path data =
-      options_.data.empty() ? folder / "multiscatter.json" : std::filesystem::path(options_.data);
+  const std::filesystem::path data = dataFile(options_);
   const InterruptGuard guard;
   const Stopwatch watch;
   simulateDiffuse();
@@ -254,7 +259,7 @@ int LobeFitRun::run() {
   writeFile(folder / "lobe_errors.txt", table);
   writePng(residualDiscs(fits_), folder / "lobe_residuals.png");
   if (!options_.picture.empty()) writePng(residualPicture(fits_), options_.picture);
-  fmt::print(
+  printText(
       "{}\nsimulations and lobes {:.1f} s, polynomials {:.2f} s, all {:.1f} s; written to {}\n",
       table, diffuse_s, polynomials_s, watch.elapsedNs() * 1e-9, data.string());
   return kExitDone;
@@ -266,11 +271,15 @@ void checkFitLobes(const FitLobesOptions& options) {
     if (!(rays >= kLeastRays && rays <= kMostRays))
       throw Error(fmt::format("{} {} is not possible; it must be {:g} to {:g}", name, rays,
                               kLeastRays, kMostRays));
-  requireOwnFiles({{"--picture", options.picture}, {"--data", options.data}});
+  requirePng(options.picture);
   if (!allRanks().isFirst()) return;
-  if (!options.picture.empty()) requireWritablePicture(options.picture);
   requireWritableFolder(options.folder);
-  if (!options.data.empty()) requireWritableFile(options.data);
+  const std::filesystem::path folder = options.folder;
+  announceOutputs({{"--picture", options.picture},
+                   {"--data", dataFile(options).string()},
+                   {"-o", (folder / "free_lobes.csv").string()},
+                   {"-o", (folder / "lobe_errors.txt").string()},
+                   {"-o", (folder / "lobe_residuals.png").string()}});
 }
 
 int runFitLobes(const CommandLine& line, const FitLobesOptions& options) {

@@ -7,9 +7,9 @@
 #include <numeric>
 
 #include "host/cli/fit_commands.h"
-#include "host/cli/own_files.h"
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
+#include "host/core/output_files.h"
 #include "host/core/progress.h"
 #include "host/core/stopwatch.h"
 #include "host/core/unknown_name.h"
@@ -21,6 +21,7 @@
 #include "host/parallel/ranks.h"
 #include "host/report/picture/image_io.h"
 #include "host/report/picture/matrix_picture.h"
+#include "host/report/record/terminal_text.h"
 #include "host/report/record/text_table.h"
 
 namespace glintmark {
@@ -60,9 +61,9 @@ void checkFitLtc(const FitLtcCommand& command) {
                       "--size and --compare, or --anisotropic",
                       ANISO_NODES));
   }
-  requireOwnFiles({{"-o", command.output}, {"--picture", command.picture}}, {command.compare});
-  if (allRanks().isFirst() && !command.output.empty()) requireWritableFile(command.output);
-  if (allRanks().isFirst() && !command.picture.empty()) requireWritablePicture(command.picture);
+  requirePng(command.picture);
+  if (allRanks().isFirst())
+    announceOutputs({{"-o", command.output}, {"--picture", command.picture}});
   if (command.size < LTC_SIZE_MIN || command.size > LTC_SIZE_MAX) {
     throw Error(fmt::format("--size {} is not possible; sizes are {} to {}", command.size,
                             LTC_SIZE_MIN, LTC_SIZE_MAX));
@@ -80,7 +81,7 @@ auto fitWithProgress(const std::string& what, const CommonOptions& common, const
     progress.show(static_cast<int>(share * 100), 100, "% of the fit");
   });
   progress.clear();
-  fmt::print("fitted {} in {:.1f} s\n", what, stopwatch.elapsedNs() * 1e-9);
+  printText("fitted {} in {:.1f} s\n", what, stopwatch.elapsedNs() * 1e-9);
   return table;
 }
 
@@ -116,7 +117,7 @@ void printSummary(const std::vector<MeasuredTable>& tables) {
     text.addRow(summaryRow(table.name, "nodes", table.nodes));
     text.addRow(summaryRow(table.name, "between", table.midpoints));
   }
-  fmt::print("{}", text.toString());
+  printText("{}", text.toString());
 }
 
 void printComparison(const LtcErrors& ours, const LtcErrors& theirs) {
@@ -128,8 +129,8 @@ void printComparison(const LtcErrors& ours, const LtcErrors& theirs) {
     if (excess > 0.01 * theirs.values[i] + 1e-4) ++worse;
     most = std::max(most, excess);
   }
-  fmt::print("at {} of {} nodes the error is larger than the compared table's, by at most {:.4f}\n",
-             worse, ours.values.size(), most);
+  printText("at {} of {} nodes the error is larger than the compared table's, by at most {:.4f}\n",
+            worse, ours.values.size(), most);
 }
 
 void writeErrorPicture(const std::vector<MeasuredTable>& tables, const std::string& file) {
@@ -217,7 +218,7 @@ int runFitAnisotropic(const CommonOptions& common, const FitLtcCommand& command)
     text.addRow(ratioRow("nodes", least, most, nodes));
     text.addRow(ratioRow("between", least, most, midpoints));
   }
-  fmt::print("integral of |LTC - BRDF cos|, {}\n{}", command.ndf, text.toString());
+  printText("integral of |LTC - BRDF cos|, {}\n{}", command.ndf, text.toString());
   if (!command.picture.empty()) writeAnisotropicPicture(command.ndf, nodes, command.picture);
   return kExitDone;
 }

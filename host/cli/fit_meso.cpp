@@ -8,6 +8,7 @@
 #include "host/fit/meso_fit.h"
 #include "host/parallel/ranks.h"
 #include "host/reference/scaled_cosine.h"
+#include "host/report/record/terminal_text.h"
 #include "host/report/record/text_table.h"
 
 namespace glintmark {
@@ -38,8 +39,8 @@ int runFitMeso(int count) {
   table.addRow(errorRow("fitted", errors(constants)));
   table.addRow(errorRow("shipped", errors(shipped)));
   table.addRow(errorRow("[TAO21] Eq. 7, clamped", mesoErrors(grid, reference::tao21OverallAlpha)));
-  fmt::print("{}inverse of the mean length: relative error at most {:.1e}\n", table.toString(),
-             mesoInverseError(constants));
+  printText("{}inverse of the mean length: relative error at most {:.1e}\n", table.toString(),
+            mesoInverseError(constants));
   return kExitDone;
 }
 
@@ -50,6 +51,7 @@ void addFitMesoCommand(Command fit, CommandLine& line) {
   Command command = fit.subcommand(
       "meso", "Constants of the meso scale: mean length to roughness, roughness of both scales");
   command.option("--grid", *count, "Roughnesses along each axis, 1 to 33 (default: 32)");
+  command.footer("Examples:\n  glintmark fit meso\n  glintmark fit meso --grid 8");
   command.callback([count, &line] {
     line.shares_work = true;
     line.action = [count] { return runFitMeso(*count); };

@@ -4,10 +4,9 @@
 #include <memory>
 
 #include "host/cli/command_line.h"
-#include "host/cli/own_files.h"
 #include "host/cli/shading_flags.h"
-#include "host/core/atomic_file.h"
 #include "host/core/error.h"
+#include "host/core/output_files.h"
 #include "host/core/unknown_name.h"
 #include "host/experiment/angle_sweep.h"
 #include "host/experiment/count_cells.h"
@@ -15,6 +14,7 @@
 #include "host/frame/shading_options.h"
 #include "host/report/picture/heatmap.h"
 #include "host/report/picture/image_io.h"
+#include "host/report/record/terminal_text.h"
 
 namespace glintmark {
 namespace {
@@ -35,15 +35,13 @@ HeatmapScale parseScale(const std::string& name) {
 
 void checkOutputs(const HeatmapCommand& command) {
   const auto check = [](const std::string& file, const char* option, const char* extension) {
-    if (file.empty()) return;
-    if (std::filesystem::path(file).extension() != extension) {
+    if (!file.empty() && std::filesystem::path(file).extension() != extension)
       throw Error(fmt::format("{} '{}' must end in {}", option, file, extension));
-    }
-    requireWritableFile(file);
   };
   check(command.picture, "--output", ".png");
   check(command.exr, "--exr", ".exr");
   check(command.csv, "--csv", ".csv");
+  announceOutputs({{"-o", command.picture}, {"--exr", command.exr}, {"--csv", command.csv}});
   if (command.sweep_angle && !command.exr.empty()) {
     throw Error("--exr holds one view; it does not go with --sweep-angle");
   }
@@ -81,18 +79,16 @@ int runView(const CommonOptions& common, const HeatmapCommand& command,
     cells.channel_names = {"cells"};
     writeExr(cells, command.exr);
   }
-  fmt::print("{} {}x{}, {} per pixel over {} glint pixels\n", name, shading.width_px,
-             shading.height_px, unit, counted.counts.glint_px);
-  fmt::print("min {}  mean {:.3f}  max {}  guard hits {}\n", counted.counts.min,
-             counted.counts.mean, counted.counts.max, counted.counts.guard_hits);
-  fmt::print("mean {:.3f} with idle lanes and steps rounded up\n", counted.counts.paid_mean);
-  fmt::print("{}", histogramText(cellDistribution(counted.cells)));
+  printText("{} {}x{}, {} per pixel over {} glint pixels\n", name, shading.width_px,
+            shading.height_px, unit, counted.counts.glint_px);
+  printText("min {}  mean {:.3f}  max {}  guard hits {}\n", counted.counts.min, counted.counts.mean,
+            counted.counts.max, counted.counts.guard_hits);
+  printText("mean {:.3f} with idle lanes and steps rounded up\n", counted.counts.paid_mean);
+  fmt::print("{}", histogramText(cellDistribution(counted.cells), terminalColumns()));
   return kExitDone;
 }
 
 int runHeatmap(const CommonOptions& common, const HeatmapCommand& command) {
-  requireOwnFiles({{"-o", command.picture}, {"--exr", command.exr}, {"--csv", command.csv}},
-                  sceneInputs(common, command.scene));
   checkOutputs(command);
   const char* default_size = command.sweep_angle ? "960x540" : "1920x1080";
   const ImageSize size = parseSize(command.size.empty() ? default_size : command.size);

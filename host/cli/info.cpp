@@ -10,9 +10,11 @@
 #include "host/cli/command_line.h"
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
+#include "host/core/output_files.h"
 #include "host/ocl/compute.h"
 #include "host/ocl/device_clock.h"
 #include "host/report/record/run_info.h"
+#include "host/report/record/terminal_text.h"
 
 namespace glintmark {
 namespace {
@@ -38,26 +40,26 @@ std::string gibibytes(unsigned long long bytes) {
 }
 
 void printDevice(const DeviceInfo& info) {
-  fmt::print("device {}: {}\n", info.index, info.name);
-  if (!info.problem.empty()) fmt::print("  problem     {}\n", info.problem);
-  fmt::print("  platform    {} ({})\n", info.platform, info.platform_version);
-  fmt::print("  driver      {}, {}\n", info.driver_version, info.opencl_c_version);
-  fmt::print("  kind        {} of {}, compute units: {}, clock: {}\n", info.type, info.vendor,
-             orUnknown(info.compute_units, ""), orUnknown(info.max_clock_mhz, " MHz"));
-  fmt::print("  memory      {}, at most {} in one buffer\n", gibibytes(info.global_mem_bytes),
-             gibibytes(info.max_alloc_bytes));
-  fmt::print("  groups      at most {} work-items\n", orUnknown(info.max_work_group_size, ""));
-  fmt::print("  lanes       {} (preferred float vector {})\n", info.default_lanes,
-             orUnknown(info.preferred_float_width, ""));
-  if (!info.refused.empty()) fmt::print("  refused     {}\n", fmt::join(info.refused, ", "));
+  printText("device {}: {}\n", info.index, info.name);
+  if (!info.problem.empty()) printText("  problem     {}\n", info.problem);
+  printText("  platform    {} ({})\n", info.platform, info.platform_version);
+  printText("  driver      {}, {}\n", info.driver_version, info.opencl_c_version);
+  printText("  kind        {} of {}, compute units: {}, clock: {}\n", info.type, info.vendor,
+            orUnknown(info.compute_units, ""), orUnknown(info.max_clock_mhz, " MHz"));
+  printText("  memory      {}, at most {} in one buffer\n", gibibytes(info.global_mem_bytes),
+            gibibytes(info.max_alloc_bytes));
+  printText("  groups      at most {} work-items\n", orUnknown(info.max_work_group_size, ""));
+  printText("  lanes       {} (preferred float vector {})\n", info.default_lanes,
+            orUnknown(info.preferred_float_width, ""));
+  if (!info.refused.empty()) printText("  refused     {}\n", fmt::join(info.refused, ", "));
 }
 
 void printPlatforms(const PlatformList& list) {
-  if (!list.problem.empty()) fmt::print("problem: {}\n", list.problem);
-  for (const std::string& broken : list.broken_drivers) fmt::print("broken driver {}\n", broken);
+  if (!list.problem.empty()) printText("problem: {}\n", list.problem);
+  for (const std::string& broken : list.broken_drivers) printText("broken driver {}\n", broken);
   for (const PlatformInfo& platform : list.platforms) {
     if (!platform.problem.empty())
-      fmt::print("platform {} ({}): {}\n", platform.name, platform.version, platform.problem);
+      printText("platform {} ({}): {}\n", platform.name, platform.version, platform.problem);
     for (const DeviceInfo& info : platform.devices) printDevice(info);
   }
 }
@@ -121,17 +123,17 @@ ChosenDevice measureChosen(const CommonOptions& common) {
 
 void printChosen(const ChosenDevice& chosen) {
   const char* how = chosen.timer == Timer::kWall ? "measured by the wall clock" : "measured";
-  fmt::print("chosen: device {} with {} lanes\n", chosen.index, chosen.lanes);
-  fmt::print("  FMA peak    {:.3g} GFLOP/s ({})\n", chosen.peaks.gflops, how);
-  fmt::print("  bandwidth   {:.3g} GB/s ({}, read + written)\n", chosen.peaks.gbs, how);
+  printText("chosen: device {} with {} lanes\n", chosen.index, chosen.lanes);
+  printText("  FMA peak    {:.3g} GFLOP/s ({})\n", chosen.peaks.gflops, how);
+  printText("  bandwidth   {:.3g} GB/s ({}, read + written)\n", chosen.peaks.gbs, how);
 }
 
 // The list comes first and whatever happens: it says why a device cannot be used.
 int runInfo(const CommandLine& line, const InfoOptions& options) {
-  if (!options.json.empty()) requireWritableFile(options.json);
+  announceOutputs({{"--json", options.json}});
   prepareDrivers(line.common);
   const PlatformList list = listPlatforms();
-  fmt::print("glintmark {} ({})\n", GLINTMARK_VERSION, gitVersion());
+  printText("glintmark {} ({})\n", GLINTMARK_VERSION, gitVersion());
   printPlatforms(list);
   std::fflush(stdout);
   try {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "host/report/metrics.h"
+
 namespace glintmark {
 namespace {
 
@@ -37,10 +39,7 @@ PictureFault judgePicture(const Image& radiance, const Scene& scene, const View&
                scene.name, shows_environment ? "the environment alone" : "empty");
     return shows_environment ? PictureFault::kNone : PictureFault::kEmpty;
   }
-  const auto is_lit = [](const auto& channels) {
-    return channels[0] != 0 || channels[1] != 0 || channels[2] != 0;
-  };
-  if (countPixels(radiance, is_lit) > 0) return PictureFault::kNone;
+  if (hasLight(radiance)) return PictureFault::kNone;
   const bool shows_sky = shows_environment && countPixels(radiance, [](const auto& channels) {
                                                 return channels[3] == 0;
                                               }) > 0;

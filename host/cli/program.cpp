@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <optional>
 
 #include "host/cli/command_line.h"
 #include "host/core/error.h"
+#include "host/core/output_files.h"
 #include "host/core/progress.h"
 #include "host/experiment/rank_watch.h"
 #include "host/parallel/ranks.h"
@@ -105,7 +107,11 @@ int runProgram(int argc, const char* const* argv) {
 
   if (launched().rank > 0) muteOutput();
   if (const std::optional<int> done = parser.parse(argc, argv)) return *done;
+  if (const std::string& assets = line.common.asset_folder;
+      !assets.empty() && !std::filesystem::is_directory(assets))
+    throw Error(fmt::format("--assets '{}' is not a folder", assets));
   joinRanksOf(line);
+  const InputGuard guard;
   if (line.common.quiet) Progress::silenceAll();
   return line.action();
 }

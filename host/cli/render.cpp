@@ -7,11 +7,10 @@
 #include <optional>
 
 #include "host/cli/command_line.h"
-#include "host/cli/own_files.h"
 #include "host/cli/picture_verdict.h"
 #include "host/cli/shading_flags.h"
-#include "host/core/atomic_file.h"
 #include "host/core/error.h"
+#include "host/core/output_files.h"
 #include "host/core/progress.h"
 #include "host/core/trace.h"
 #include "host/experiment/run_inputs.h"
@@ -53,6 +52,7 @@ struct RenderOptions {
   double step = 0.1;
   bool frames_given = false, step_given = false;
   int zoom = 0;  // octaves; 0: one picture
+  bool truth_given = false, zoom_given = false;
   bool no_glints = false;
   bool star = false, star_chosen = false;
   bool background = false, background_chosen = false;
@@ -118,7 +118,7 @@ int runZoom(const CommonOptions& common, const RenderOptions& options,
   bool is_finite = true, is_lit = false;
   const auto judge = [&](const Image& radiance) {
     is_finite = is_finite && isSane(radiance);
-    is_lit = is_lit || radianceFault(radiance).empty();
+    is_lit = is_lit || hasLight(radiance);
   };
   writePng(zoomStrip(device, scene, view, shading, options.zoom, exposure, common.threads, judge),
            options.output);
@@ -131,19 +131,20 @@ int runZoom(const CommonOptions& common, const RenderOptions& options,
 
 void checkRenderOptions(const RenderOptions& options) {
   const std::string extension = requireImageExtension(options.output);
-  requireWritableFile(options.output);
   if (!options.aov_output.empty()) {
     if (requireImageExtension(options.aov_output) != ".exr") {
       throw Error(
           fmt::format("--aov '{}' must end in .exr: planes are floats", options.aov_output));
     }
-    requireWritableFile(options.aov_output);
   }
   if (options.exposure && !(*options.exposure > 0)) {
     throw Error(fmt::format("--exposure {} is not a positive number", *options.exposure));
   }
-  if (!options.trace.empty()) requireWritableFile(options.trace);
-  if (options.truth_spp < 0 || options.truth_spp > kMostTruthSpp)
+  announceOutputs(
+      {{"-o", options.output}, {"--aov", options.aov_output}, {"--trace", options.trace}});
+  if (options.zoom_given && options.zoom == 0)
+    throw Error("--zoom 0 is no zoom; leave it out, or say over how many octaves");
+  if (options.truth_given && (options.truth_spp < 1 || options.truth_spp > kMostTruthSpp))
     throw Error(fmt::format("--truth {} is not from 1 to {} samples a pixel", options.truth_spp,
                             kMostTruthSpp));
   if (options.displaced && (options.truth_spp == 0 || options.frames_given))
@@ -278,9 +279,6 @@ void writePlanes(const Scene& scene, const Camera& camera, int threads, const st
 
 int runRender(const CommandLine& line, const RenderOptions& options) {
   const CommonOptions& common = line.common;
-  requireOwnFiles(
-      {{"-o", options.output}, {"--aov", options.aov_output}, {"--trace", options.trace}},
-      sceneInputs(common, options.scene));
   checkRenderOptions(options);
   const ImageSize size = parseSize(options.size);
   if (!options.aov_output.empty()) requireMemoryForPlanes(size.width_px, size.height_px);
@@ -334,12 +332,12 @@ constexpr char kRenderExamples[] =
     "  glintmark render snow -o snow.png --view grazing\n"
     "  glintmark render sand -o sand.exr --star --size 3840x2160\n"
     "  glintmark render screen_plane -o zoom.png --zoom 20 --size 128x128\n"
-    "  glintmark render car -o car.png --aov planes.exr --set material.paint.log_density=7\n"
+    "  glintmark render car -o car.png --aov planes.exr --set material.metal.log_density=7\n"
     "  glintmark render disk -o truth.exr --truth 256 && glintmark render disk -o lean.exr \\\n"
     "    --normal-method lean && glintmark diff lean.exr truth.exr -o error.png\n"
     "  glintmark render disk --view oblique -o relief.exr --truth 64 --displaced\n"
     "  glintmark render snow -o snow.png --frames 24 --path orbit --step 0.5\n"
-    "  glintmark render snow -o snow.png --trace trace.json    (open it at ui.perfetto.dev)";
+    "  glintmark render snow -o snow.png --trace trace.json    # open it at ui.perfetto.dev";
 
 }  // namespace
 
@@ -358,10 +356,11 @@ void addRenderCommand(Command app, CommandLine& line) {
       .typeName("FILE");
   options->flags.addGlintOptions(command);
   options->flags.addSurfaceOptions(command);
-  command
-      .option("--truth", options->truth_spp,
-              "The ground truth by so many samples a pixel, in place of any method")
-      .typeName("N");
+  const CommandOption truth =
+      command
+          .option("--truth", options->truth_spp,
+                  "The ground truth by so many samples a pixel, in place of any method")
+          .typeName("N");
   const CommandOption frames =
       command.option("--frames", options->frames, "So many pictures along --path, FILE_0000 and on")
           .typeName("N");
@@ -372,10 +371,11 @@ void addRenderCommand(Command app, CommandLine& line) {
           .option("--step", options->step,
                   "From picture to picture: degrees, or per cent of the distance (default: 0.1)")
           .typeName("X");
-  command
-      .option("--zoom", options->zoom,
-              "Strip of pictures over so many octaves, through ever narrower fields of view")
-      .typeName("OCTAVES");
+  const CommandOption zoom =
+      command
+          .option("--zoom", options->zoom,
+                  "Strip of pictures over so many octaves, through ever narrower fields of view")
+          .typeName("OCTAVES");
   command.flag("--displaced", options->displaced,
                "With --truth: heights of the map stand up from a flat mesh, hide and shade");
   command.flag("--no-glints", options->no_glints, "Smooth lobes in place of glints");
@@ -386,7 +386,9 @@ void addRenderCommand(Command app, CommandLine& line) {
                    "The environment behind the meshes (default: for PNG)");
   command.option("--exposure", options->exposure, "Scale before tone mapping").typeName("X");
   command.footer(kRenderExamples);
-  command.callback([options, star, background, frames, step, &line] {
+  command.callback([options, star, background, frames, step, truth, zoom, &line] {
+    options->truth_given = truth.given();
+    options->zoom_given = zoom.given();
     options->step_given = step.given();
     options->star_chosen = star.given();
     options->background_chosen = background.given();

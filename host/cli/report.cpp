@@ -5,9 +5,9 @@
 #include <memory>
 
 #include "host/cli/command_line.h"
-#include "host/cli/own_files.h"
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
+#include "host/core/output_files.h"
 #include "host/experiment/all_tables.h"
 #include "host/report/page/html_report.h"
 #include "host/report/page/runs_report.h"
@@ -85,8 +85,7 @@ std::vector<fs::path> resultsBelow(const std::vector<std::string>& folders) {
 
 int runReport(const std::vector<std::string>& folders, const std::string& output) {
   const std::vector<fs::path> sources = resultsBelow(folders);
-  requireOwnFiles({{"-o", output}}, {sources.begin(), sources.end()});
-  requireWritableFile(output);
+  announceOutputs({{"-o", output}});
   const bool is_one = folders.size() == 1 && fs::path(folders[0]) / "results.json" == sources[0];
   return is_one ? reportOne(folders[0], output) : reportMany(sources, output);
 }

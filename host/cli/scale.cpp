@@ -36,7 +36,8 @@ void addScaleCommand(Command app, CommandLine& line) {
       "Examples:\n"
       "  glintmark scale sponza --view grazing\n"
       "  glintmark scale snow --axis threads --reps 15\n"
-      "  glintmark scale snow --up-to 2160 -o results/scale    (glintmark report results/scale)");
+      "  glintmark scale snow --up-to 2160 -o results/scale\n"
+      "  glintmark report results/scale");
   command.callback([options, selection, &line] {
     options->scenes = {selection->scene};
     line.action = [options, selection, &line] { return runScaling(line, *selection, *options); };

@@ -6,9 +6,9 @@
 #include <numbers>
 
 #include "host/cli/command_line.h"
-#include "host/cli/own_files.h"
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
+#include "host/core/output_files.h"
 #include "host/core/progress.h"
 #include "host/core/unknown_name.h"
 #include "host/experiment/interrupt.h"
@@ -16,6 +16,7 @@
 #include "host/parallel/ranks.h"
 #include "host/report/picture/image_io.h"
 #include "host/report/record/folder_lock.h"
+#include "host/report/record/terminal_text.h"
 #include "host/report/record/text_table.h"
 #include "host/simulate/shared_simulation.h"
 #include "host/simulate/simulation.h"
@@ -94,7 +95,6 @@ std::string keptText(const Simulation& kept, const SimulateOptions& options) {
 // Casts what is missing by all ranks, with checkpoints now and then and after Ctrl-C.
 SharedTime::Spent castRays(SharedSimulation& shared, const SimulateOptions& options, bool quiet) {
   const Ranks& ranks = allRanks();
-  const InterruptGuard guard;
   Progress progress(quiet);
   ranks.any(false);  // all have compiled
   const auto save = [&] {
@@ -156,7 +156,7 @@ std::string energyTable(const Simulation& simulation, double albedo) {
                               : static_cast<double>(simulation.absorbed()) / rays;
   return table.toString() +
          fmt::format(
-             "\nescaped {:.6f}, absorbed {:.6f}, left over after order {} {:.6f}; "
+             "\nescaped {:.6f}, absorbed {:.6f}, left over after order {} {:.6f}\n"
              "counted {:.9f} of the rays\n",
              above + below, absorbed, simulation.settings.orders, left, simulation.balance());
 }
@@ -175,17 +175,16 @@ std::string slopesText(const Simulator& simulator, const SimulationSettings& set
       slopeMoments(simulator.surface().readCounts(), simulator.surface().countHeight());
   const glm::dvec2 nominal = 0.5 * settings.alpha * settings.alpha;
   return fmt::format(
-      "slope variance along x and y: {:.6f} and {:.6f} nominal, {:.6f} and {:.6f} effective in the "
-      "last surface\n",
+      "slope variance along x and y: {:.6f} and {:.6f} nominal,\n{:.6f} and {:.6f} effective in "
+      "the last "
+      "surface\n",
       nominal.x, nominal.y, 2 * nominal.x * m.variance_x, 2 * nominal.y * m.variance_y);
 }
 
 // What of the files belongs to the first rank alone: whether they can be written, and the lock.
 std::unique_ptr<FolderLock> checkFiles(const SimulateOptions& options) {
-  requireOwnFiles(
+  announceOutputs(
       {{"--checkpoint", options.checkpoint}, {"-o", options.picture}, {"--csv", options.csv}});
-  for (const std::string& file : {options.checkpoint, options.picture, options.csv})
-    if (!file.empty()) requireWritableFile(file);
   if (options.checkpoint.empty()) return nullptr;
   return std::make_unique<FolderLock>(options.checkpoint + ".lock", options.checkpoint,
                                       "choose another --checkpoint");
@@ -196,7 +195,8 @@ Simulation simulationToCarryOn(const SimulationSettings& settings, const Simulat
   const Ranks& ranks = allRanks();
   Simulation simulation{settings, 0, {}};
   if (ranks.isFirst() && options.resume && std::filesystem::exists(options.checkpoint))
-    simulation = unpackSimulation(readFile(options.checkpoint), settings, options.checkpoint);
+    simulation = unpackSimulation(readFile(options.checkpoint, FileRole::kOwn), settings,
+                                  options.checkpoint);
   simulation.rays_done = std::stoull(ranks.fromFirst(std::to_string(simulation.rays_done)));
   return simulation;
 }
@@ -232,6 +232,7 @@ int runSimulate(const CommandLine& line, const SimulateOptions& options) {
   if (!options.picture.empty() && requireImageExtension(options.picture) != ".png")
     throw Error(fmt::format("--output '{}' must end in .png", options.picture));
   const bool first = allRanks().isFirst();
+  const InterruptGuard guard;  // before there is a lock file to be left behind
   const std::unique_ptr<FolderLock> lock = first ? checkFiles(options) : nullptr;
   const Simulation begun = simulationToCarryOn(settings, options);
 
@@ -246,11 +247,11 @@ int runSimulate(const CommandLine& line, const SimulateOptions& options) {
   if (!first) return kExitDone;
 
   const Simulation& simulation = shared.collected();
-  fmt::print("{}, {} rays\n\n{}{}", describeSettings(settings), simulation.rays_done,
-             energyTable(simulation, options.albedo), how);
+  printText("{}, {} rays\n\n{}{}", describeSettings(settings), simulation.rays_done,
+            energyTable(simulation, options.albedo), how);
   if (simulation.gaveUp() > 0)
-    fmt::print("{} rays met the limit of {} steps and count as left over\n", simulation.gaveUp(),
-               HF_MOST_STEPS);
+    printText("{} rays met the limit of {} steps and count as left over\n", simulation.gaveUp(),
+              HF_MOST_STEPS);
   writeResults(simulation, options);
   return simulation.balance() == 1 ? kExitDone : kExitCheckFailed;
 }

@@ -9,15 +9,16 @@
 #include <utility>
 
 #include "host/cli/command_line.h"
-#include "host/cli/own_files.h"
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
+#include "host/core/output_files.h"
 #include "host/core/progress.h"
 #include "host/core/stopwatch.h"
 #include "host/experiment/interrupt.h"
 #include "host/experiment/run_inputs.h"
 #include "host/harness/kernel_bench.h"
 #include "host/report/record/records.h"
+#include "host/report/record/terminal_text.h"
 #include "host/report/record/text_table.h"
 #include "host/verify/check.h"
 #include "host/verify/check_process.h"
@@ -134,13 +135,13 @@ class Verifier {
 
 void printFound(const Verification& found) {
   const RunInfo& run = found.run;
-  fmt::print("{} ({}), {} lanes\n\n{}\n", run.device, run.driver, run.width,
-             tableText(found.results));
+  printText("{} ({}), {} lanes\n\n{}\n", run.device, run.driver, run.width,
+            tableText(found.results));
   for (const CheckResult& r : found.results)
-    if (!r.note.empty()) fmt::print("{}: {}\n", r.name, r.note);
-  fmt::print("{} checks: {} pass, {} fail, {} skipped; {:.0f} s.\n", found.results.size(),
-             found.count(Verdict::kPass), found.count(Verdict::kFail),
-             found.count(Verdict::kSkipped), found.seconds);
+    if (!r.note.empty()) printText("{}: {}\n", r.name, r.note);
+  printText("{} checks: {} pass, {} fail, {} skipped; {:.0f} s.\n", found.results.size(),
+            found.count(Verdict::kPass), found.count(Verdict::kFail),
+            found.count(Verdict::kSkipped), found.seconds);
 }
 
 void checkOptions(const VerifyOptions& options) {
@@ -148,11 +149,9 @@ void checkOptions(const VerifyOptions& options) {
     throw Error(fmt::format("--timeout {} is not a positive number of seconds", options.timeout_s));
   if (options.resume && logFile(options).empty())
     throw Error("--resume needs the --json or --junit file of the run that it carries on with");
-  requireOwnFiles({{"--json", options.json},
+  announceOutputs({{"--json", options.json},
                    {"--junit", options.junit},
                    {"the log of --json", logFile(options).string()}});
-  for (const std::string& file : {options.json, options.junit, logFile(options).string()})
-    if (!file.empty()) requireWritableFile(file);
 }
 
 int runVerify(const CommandLine& line, const VerifyOptions& options) {

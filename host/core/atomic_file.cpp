@@ -18,6 +18,7 @@
 
 #include "host/core/error.h"
 #include "host/core/free_memory.h"
+#include "host/core/output_files.h"
 
 namespace glintmark {
 namespace fs = std::filesystem;
@@ -82,6 +83,7 @@ AtomicFile::AtomicFile(const fs::path& target) : target_(target) {
                     "name",
                     target.string()));
   }
+  requireNoInput(target);
   const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
   if (!fs::is_directory(folder, ignored)) {
     throw Error(
@@ -107,6 +109,7 @@ void AtomicFile::commit(Durability durability) {
   if (durability == Durability::kSynced) sync();
   if (std::rename(temp_.c_str(), target_.c_str()) != 0) fail("write", target_, errno);
   committed_ = true;
+  noteWritten(target_);
 }
 
 void AtomicFile::sync() const {
@@ -144,7 +147,7 @@ void writeFile(const fs::path& target, std::initializer_list<std::string_view> p
   file.commit(durability);
 }
 
-InputFile::InputFile(const fs::path& path) : path_(path) {
+InputFile::InputFile(const fs::path& path, FileRole role) : path_(path) {
   // Without O_NONBLOCK a pipe would be waited for.
   descriptor_ = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor_ < 0) fail("read", path, errno);
@@ -153,6 +156,13 @@ InputFile::InputFile(const fs::path& path) : path_(path) {
   const int stat_error = errno;
   if (known && S_ISREG(status.st_mode)) {
     size_bytes_ = static_cast<std::uint64_t>(status.st_size);
+    if (role == FileRole::kOwn) return;
+    try {
+      noteInput(path, status.st_dev, status.st_ino);
+    } catch (...) {
+      close(descriptor_);
+      throw;
+    }
     return;
   }
   close(descriptor_);
@@ -178,8 +188,8 @@ std::size_t InputFile::read(char* bytes, std::size_t count) {
   return done;
 }
 
-std::string readFile(const fs::path& path) {
-  InputFile file(path);
+std::string readFile(const fs::path& path, FileRole role) {
+  InputFile file(path, role);
   // Files of /proc tell no size; what grows while it is read is read up to here.
   constexpr std::size_t kMostOfUnknownSize = std::size_t{64} << 20;
   const std::uint64_t size = file.sizeBytes();

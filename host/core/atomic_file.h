@@ -20,7 +20,7 @@ class AtomicFile {
  public:
   /// Creates the empty temporary file, and removes those that killed runs have left in the folder.
   /// Throws Error if the folder is missing or cannot be written,
-  /// or if `target` exists and is not a regular file.
+  /// if `target` exists and is not a regular file, or if it was read as an input.
   explicit AtomicFile(const std::filesystem::path& target);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
@@ -50,11 +50,16 @@ void writeFile(const std::filesystem::path& target, std::string_view text);
 void writeFile(const std::filesystem::path& target, std::initializer_list<std::string_view> pieces,
                Durability durability);
 
+/// Whose a file is that is read: an input is the user's, and no output may be written over it
+/// (output_files.h); what the program keeps for itself it also writes again.
+enum class FileRole { kInput, kOwn };
+
 /// A regular file opened for reading: a device, a pipe, a socket or a folder is refused at once,
-/// since it may have no end or never answer. Throws Error naming the file and the reason.
+/// since it may have no end or never answer. Throws Error naming the file and the reason, or an
+/// output that is the file.
 class InputFile {
  public:
-  explicit InputFile(const std::filesystem::path& path);
+  explicit InputFile(const std::filesystem::path& path, FileRole role = FileRole::kInput);
   ~InputFile();
   InputFile(const InputFile&) = delete;
   InputFile& operator=(const InputFile&) = delete;
@@ -72,7 +77,7 @@ class InputFile {
 
 /// Reads a whole file of text or bytes. Throws Error like InputFile, and for more bytes than memory
 /// is free.
-std::string readFile(const std::filesystem::path& path);
+std::string readFile(const std::filesystem::path& path, FileRole role = FileRole::kInput);
 
 /// Creates `folder` with its parents and makes sure that files can be created in it. Throws Error
 /// saying what stands in the way.

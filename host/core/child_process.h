@@ -17,7 +17,8 @@ struct ChildLimits {
 
 /// A forked copy of this process that does one piece of work and hands bytes back. It has the
 /// thread that called alone, dies with it, leaves no core and gets its signals as if nobody had
-/// caught them. `work` reads and writes the descriptor that it gets; what it throws ends the child.
+/// caught them; what it prints on stderr is dropped. `work` reads and writes the descriptor that it
+/// gets; what it throws ends the child.
 class ChildProcess {
  public:
   /// Throws Error if the system gives no process.

@@ -97,7 +97,7 @@ std::optional<std::string> DiskCache::load(const std::string& name, const std::s
     const fs::path file = entryPath(name);
     if (lstat(file.c_str(), &status) != 0 || !S_ISREG(status.st_mode) || status.st_uid != geteuid())
       return std::nullopt;
-    entry = readFile(entryPath(name));
+    entry = readFile(entryPath(name), FileRole::kOwn);
   } catch (const Error&) {
     return std::nullopt;
   }

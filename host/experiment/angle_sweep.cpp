@@ -11,6 +11,7 @@
 #include "host/experiment/count_cells.h"
 #include "host/experiment/interrupt.h"
 #include "host/report/picture/image_io.h"
+#include "host/report/record/terminal_text.h"
 #include "host/report/record/text_table.h"
 
 namespace glintmark {
@@ -65,7 +66,7 @@ void writeOutputs(const AngleSweep& sweep, const std::vector<AngleResult>& resul
     cells.push_back(thumbnail(result.counted.cells));
     captions.push_back(fmt::format("{} deg", result.angle_deg));
   }
-  fmt::print("{}", table.toString());
+  printText("{}", table.toString());
   if (!sweep.csv.empty()) writeFile(sweep.csv, csv);
   if (!sweep.picture.empty()) {
     const std::string title =

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "host/core/atomic_file.h"
 #include "host/core/error.h"
+#include "host/core/output_files.h"
 #include "host/core/trace.h"
 #include "host/core/unknown_name.h"
 #include "host/experiment/all_tables.h"
@@ -84,7 +84,7 @@ int measureTables(const Session& session, const std::vector<BenchTable>& tables,
   const InterruptGuard guard;
   const bool traces = !options.trace.empty() && allRanks().isFirst();
   if (traces) {
-    requireWritableFile(options.trace);
+    announceOutputs({{"--trace", options.trace}});
     startTrace();
   }
   BenchRun run(session, options);

@@ -11,6 +11,7 @@
 
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
+#include "host/core/output_files.h"
 #include "host/core/progress.h"
 #include "host/core/trace.h"
 #include "host/experiment/interrupt.h"
@@ -20,6 +21,7 @@
 #include "host/parallel/ranks.h"
 #include "host/report/picture/image_io.h"
 #include "host/report/record/records.h"
+#include "host/report/record/terminal_text.h"
 
 namespace glintmark {
 namespace {
@@ -98,9 +100,11 @@ std::filesystem::path checkedFolder(const BenchOptions& options) {
                             options.max_time_s, kMostTime_s));
   if (!allRanks().isFirst()) return options.folder;
   requireWritableFolder(options.folder);
-  for (const std::string& file : {options.json, options.csv}) {
-    if (!file.empty()) requireWritableFile(file);
-  }
+  const std::filesystem::path folder = options.folder;
+  std::vector<OutputFile> outputs = {{"--json", options.json}, {"--csv", options.csv}};
+  for (const char* name : {"results.json", "results.csv", "table.txt"})
+    outputs.push_back({"-o", (folder / name).string()});
+  announceOutputs(outputs);
   return options.folder;
 }
 
@@ -287,7 +291,7 @@ void BenchRun::keepPicture(const Image& picture, const std::string& file) {
   const std::filesystem::path copy =
       std::filesystem::temp_directory_path() / fmt::format("glintmark_{}_{}", getpid(), file);
   writePng(picture, copy);
-  CaseMessage message{.file = file, .content = readFile(copy)};
+  CaseMessage message{.file = file, .content = readFile(copy, FileRole::kOwn)};
   std::filesystem::remove(copy);
   allRanks().post(packMessage(message));
 }
@@ -367,7 +371,8 @@ int BenchRun::finish(const std::string& tables) {
     throw Error(fmt::format("{}; all records are in {}, --resume writes the files from them",
                             error.what(), (folder_ / "records.jsonl").string()));
   }
-  fmt::print("{}\nwritten to {}\n", text, folder_.string());
+  printText("{}", text);
+  fmt::print("\nwritten to {}\n", folder_.string());
   const bool whole = std::ranges::all_of(records_, &Record::valid) && lostCases().empty();
   return whole ? kExitDone : kExitCheckFailed;
 }

@@ -9,6 +9,7 @@
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
 #include "host/core/fnv1a.h"
+#include "host/core/output_files.h"
 #include "host/fit/data_folder.h"
 #include "host/ocl/compute.h"
 #include "host/scene/load_scene.h"
@@ -19,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Of every regular file below a folder, or of one file, in the order of their names.
-std::string hashOf(const fs::path& path) {
+std::string hashOf(const fs::path& path, FileRole role = FileRole::kInput) {
   std::error_code error;
   std::vector<fs::path> files;
   if (fs::is_directory(path, error)) {
@@ -33,7 +34,9 @@ std::string hashOf(const fs::path& path) {
   for (const fs::path& file : files) {
     try {
       hashes += fmt::format("{} {:016x}\n", file.lexically_relative(path).string(),
-                            fnv1a(readFile(file)));
+                            fnv1a(readFile(file, role)));
+    } catch (const OverwriteError&) {
+      throw;
     } catch (const Error&) {
       hashes += "unreadable\n";
     }
@@ -47,13 +50,18 @@ std::string hashInputs(const CommonOptions& common, const std::vector<std::strin
   std::string hashes = hashOf(kernelFolder()) + hashOf(sceneFolder());
   try {
     hashes += hashOf(findDataFile("multiscatter.json").parent_path());
+  } catch (const OverwriteError&) {
+    throw;
   } catch (const Error&) {
     hashes += "no tables\n";
   }
   for (const std::string& scene : scenes)
     if (fs::path(scene).extension() == ".toml") hashes += hashOf(scene);
   if (!common.mesh_file.empty()) hashes += hashOf(common.mesh_file);
-  if (!common.asset_folder.empty()) hashes += hashOf(common.asset_folder);
+  if (!common.asset_folder.empty()) {
+    // Where assets lie results may lie too; what is read of them says so itself.
+    hashes += hashOf(common.asset_folder, FileRole::kOwn);
+  }
   return fmt::format("{:016x}", fnv1a(hashes));
 }
 

@@ -3,10 +3,10 @@
 
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <sstream>
 
+#include "host/core/atomic_file.h"
 #include "host/core/error.h"
 #include "host/fit/ltc_error.h"
 #include "host/fit/ltc_fit.h"
@@ -37,7 +37,7 @@ std::map<std::string, Matrix> readOctaveMatrices(std::istream& file) {
 }  // namespace
 
 LtcTable readPublishedLtc(const std::filesystem::path& path) {
-  std::ifstream file(path);
+  std::istringstream file(readFile(path));
   std::map<std::string, Matrix> matrices = readOctaveMatrices(file);
   const auto matrix = [&](const std::string& name) -> const Matrix& {
     const Matrix& m = matrices[name];

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "host/core/atomic_file.h"
 #include "host/core/error.h"
 #include "host/core/fnv1a.h"
 #include "host/core/json_depth.h"
@@ -75,10 +75,9 @@ std::string toJson(const MultiscatterData& data) {
 }
 
 MultiscatterData readMultiscatterData(const std::filesystem::path& path) {
-  std::ifstream file(path);
   MultiscatterData data;
   try {
-    const std::string text(std::istreambuf_iterator<char>(file), {});
+    const std::string text = readFile(path, FileRole::kOwn);
     checkJsonDepth(text, path.string());
     const nlohmann::json json = nlohmann::json::parse(text);
     if (json.at("schema") != kSchema)

@@ -110,7 +110,7 @@ std::string readTableFile(const TableFormat& format, const std::filesystem::path
     std::string name(format.name.substr(format.name.find(' ') + 1));
     throw Error(fmt::format("no {} {}; `{}` writes one", name, path.string(), format.command));
   }
-  return readFile(path);
+  return readFile(path, FileRole::kOwn);
 }
 
 void requireNdf(reference::Ndf found, reference::Ndf wanted, const std::filesystem::path& path) {

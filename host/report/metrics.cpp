@@ -96,13 +96,17 @@ bool isSane(const Image& image) {
   return badValueCount(image) == 0;
 }
 
+bool hasLight(const Image& radiance) {
+  const auto channels = static_cast<std::size_t>(radiance.channels);
+  for (std::size_t i = 0; i < radiance.pixels.size(); ++i)
+    if (i % channels < 3 && radiance.pixels[i] != 0) return true;
+  return false;
+}
+
 std::string radianceFault(const Image& radiance) {
   if (const std::size_t bad = badValueCount(radiance); bad > 0)
     return fmt::format("{} radiance values are negative or not finite", bad);
-  const auto channels = static_cast<std::size_t>(radiance.channels);
-  for (std::size_t i = 0; i < radiance.pixels.size(); ++i)
-    if (i % channels < 3 && radiance.pixels[i] > 0) return "";
-  return "nothing that the view shows reflects light to it";
+  return hasLight(radiance) ? "" : "nothing that the view shows reflects light to it";
 }
 
 Image coveredPixels(const Image& image, const Image& coverage) {

@@ -37,6 +37,9 @@ double changeError(const Image& before, const Image& after, const Image& referen
 std::size_t badValueCount(const Image& image);
 bool isSane(const Image& image);
 
+/// Is some colour (RGB first) not 0?
+bool hasLight(const Image& radiance);
+
 /// Why a frame's radiance (RGB first) is not to be measured: "3 radiance values are negative or not
 /// finite", or it is 0 everywhere. Empty: it may be.
 std::string radianceFault(const Image& radiance);

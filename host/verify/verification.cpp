@@ -86,7 +86,7 @@ std::vector<std::string> wholeLines(const std::string& text) {
 std::map<std::string, CheckResult> readLog(const std::filesystem::path& file, const RunInfo& run) {
   std::map<std::string, CheckResult> kept;
   if (!std::filesystem::exists(file)) return kept;
-  std::vector<std::string> lines = wholeLines(readFile(file));
+  std::vector<std::string> lines = wholeLines(readFile(file, FileRole::kOwn));
   if (lines.empty()) return kept;
   for (std::size_t i = 0; i < lines.size(); ++i)
     if (const std::string where = fmt::format("{} line {}", file.string(), i + 1);

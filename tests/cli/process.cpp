@@ -82,6 +82,7 @@ Process::Process(const char* program, std::vector<char*> argv,
   redirect("/dev/null", O_RDONLY, STDIN_FILENO);
   redirect(out.c_str(), O_WRONLY | O_CREAT, STDOUT_FILENO);
   redirect(err.c_str(), O_WRONLY | O_CREAT, STDERR_FILENO);
+  setenv("COLUMNS", "1000", 1);  // sentences stay lines
   for (const std::string& entry : environment) putenv(const_cast<char*>(entry.c_str()));
   if (most_file_bytes > 0) {
     const rlimit limit = {most_file_bytes, most_file_bytes};

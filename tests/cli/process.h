@@ -23,8 +23,9 @@ struct ProcessResult {
 /// A started program; stdin is empty, stdout and stderr go to files.
 class Process {
  public:
-  /// `environment` holds "NAME=value" entries added to this process's own. A write that would make
-  /// a file larger than `most_file_bytes` fails, as on a full disk; 0 sets no limit.
+  /// `environment` holds "NAME=value" entries added to this process's own and to COLUMNS=1000. A
+  /// write that would make a file larger than `most_file_bytes` fails, as on a full disk; 0 sets no
+  /// limit.
   explicit Process(const std::vector<std::string>& arguments,
                    const std::vector<std::string>& environment = {},
                    std::size_t most_file_bytes = 0);

@@ -1,6 +1,7 @@
 // diff on pictures written here.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "host/core/atomic_file.h"
@@ -60,6 +61,20 @@ TEST_F(Diff, BadInput) {
   expectRefused({a, a, "--exposure", "0"}, "--exposure 0 is not a positive number");
   expectRefused({a, a, "--trim", "80"}, "--trim 80 is not a percentage from 0 to 50");
   EXPECT_FALSE(std::filesystem::exists(folder_ / "e.png"));
+}
+
+// Of a broken picture one sentence is said, not what its library prints besides.
+TEST_F(Diff, SaysOfBrokenPicturesOneSentence) {
+  writePng(Image(64, 64, 3), folder_ / "a.png");
+  const std::string whole = readFile(folder_ / "a.png");
+  for (const std::size_t at : {whole.find("IDAT") + 6, whole.size() - 6}) {
+    std::string broken = whole;
+    broken[at] = static_cast<char>(broken[at] ^ 0x55);
+    writeFile(folder_ / "b.png", broken);
+    const ProcessResult result = runGlintmark({"diff", folder_ / "b.png", folder_ / "a.png"});
+    EXPECT_EQ(std::ranges::count(result.err, '\n'), result.exit_code == 0 ? 0 : 1) << result.err;
+    EXPECT_EQ(result.err.find("libpng"), std::string::npos) << result.err;
+  }
 }
 
 // Outputs replace what stands there: never what they are made from, and not each other.

@@ -75,8 +75,39 @@ TEST(Usage, MissingAndMalformedValues) {
   expectError({"render", "screen_plane", "-o", "a.png", "--exposure", "0"}, 2, {"--exposure 0"});
 }
 
+// Of a shell's variable that was never set: as if the option were not there, they did nothing.
+TEST(Usage, EmptyValuesAreRefused) {
+  for (const char* option : {"--device", "--mesh", "--assets", "--set", "--threads", "--width"})
+    expectError({option, "", "render", "screen_plane", "-o", "a.png"}, 2, {option, "is empty"});
+  for (const char* option : {"--size", "--view", "--zoom", "--aov", "--trace", "--exposure"})
+    expectError({"render", "screen_plane", "-o", "a.png", option, ""}, 2, {option, "is empty"});
+  expectError({"report", ""}, 2, {"folder", "is empty"});
+  expectError({"info", "--json", ""}, 2, {"--json", "is empty"});
+}
+
+TEST(Usage, ValuesThatDoNothingAreRefused) {
+  expectError({"render", "screen_plane", "-o", "a.png", "--zoom", "0"}, 2, {"--zoom 0"});
+  expectError({"render", "screen_plane", "-o", "a.png", "--truth", "0"}, 2,
+              {"--truth 0", "from 1"});
+  expectError({"--assets", "/nowhere", "info"}, 2, {"--assets '/nowhere' is not a folder"});
+  for (const char* count : {"-1", "abc", "nan"})
+    expectError({"--threads", count, "info"}, 2,
+                {"--threads", std::string("'") + count + "' is not a number from 0 on"});
+}
+
+TEST(Usage, NamesThatTheSystemRefusesAreSaid) {
+  const std::string name(5000, 'x');
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"report", name},
+                                                {"compare", name, name},
+                                                {"diff", name, name},
+                                                {"render", "screen_plane", "-o", name + ".png"},
+                                                {"fit", "gmm", name}})
+    expectError(words, 2, {name.substr(0, 100)});
+  expectError({"report", name}, 2, {"File name too long"});
+}
+
 TEST(Usage, Sizes) {
-  for (const char* size : {"0x0", "1000000x1", "-1x5", "64", "64x", "x36", "64x36x1", "ax36", ""}) {
+  for (const char* size : {"0x0", "1000000x1", "-1x5", "64", "64x", "x36", "64x36x1", "ax36"}) {
     expectError({"render", "screen_plane", "-o", "a.png", "--size", size}, 2,
                 {"--size '" + std::string(size) + "'", "1920x1080"});
   }

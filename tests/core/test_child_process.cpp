@@ -33,6 +33,16 @@ TEST(ChildProcess, HandsBytesBack) {
   EXPECT_EQ(child.finish(), "");
 }
 
+TEST(ChildProcess, WhatItPrintsIsDropped) {
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(endOf([](int out) {
+              writeText(STDERR_FILENO, "libpng error: of a library");
+              writeText(out, ".");
+            }),
+            "");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
 TEST(ChildProcess, SaysHowItEnded) {
   EXPECT_EQ(endOf([](int) { std::raise(SIGSEGV); }), "was ended by signal 11 (Segmentation fault)");
   EXPECT_EQ(endOf([](int) { std::raise(SIGKILL); }), "was ended by signal 9 (Killed)");

@@ -21,6 +21,7 @@
 #include "host/reference/ltc.h"
 #include "host/reference/polygon_light.h"
 #include "tests/fit/hemisphere_integral.h"
+#include "tests/print_names.h"
 
 namespace glintmark {
 namespace {

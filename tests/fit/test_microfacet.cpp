@@ -4,6 +4,7 @@
 #include "host/reference/beckmann.h"
 #include "host/reference/microfacet.h"
 #include "tests/fit/hemisphere_integral.h"
+#include "tests/print_names.h"
 
 namespace glintmark {
 namespace {

@@ -100,6 +100,14 @@ TEST(EffectSets, EveryEffectSaysWhoCallsForIt) {
   }
 }
 
+}  // namespace
+
+static void PrintTo(const EffectSet& set, std::ostream* out) {
+  *out << effectSetName(set);
+}
+
+namespace {
+
 class SetOfEffects : public testing::TestWithParam<EffectSet> {};
 
 // The program with everything compiled in, on the same lists and on pixels in the order of the

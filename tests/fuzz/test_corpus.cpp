@@ -3,11 +3,21 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <ostream>
 
 #include "fuzz/entries.h"
 #include "host/core/atomic_file.h"
 
 namespace glintmark {
+
+namespace fuzz {
+
+static void PrintTo(const Entry& entry, std::ostream* out) {
+  *out << entry.name;
+}
+
+}  // namespace fuzz
+
 namespace {
 
 class Corpus : public testing::TestWithParam<fuzz::Entry> {};

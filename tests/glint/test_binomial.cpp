@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "host/harness/binomial_cases.h"
+#include "tests/print_names.h"
 #include "tests/shared_bench.h"
 
 namespace glintmark {

@@ -8,6 +8,7 @@
 #include "host/harness/pixel_harness.h"
 #include "host/harness/random_pixels.h"
 #include "host/reference/footprint.h"
+#include "tests/print_names.h"
 #include "tests/shared_bench.h"
 
 namespace glintmark {

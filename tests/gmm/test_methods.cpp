@@ -17,6 +17,7 @@
 #include "host/harness/small_scenes.h"
 #include "host/mixture/normal_mixture.h"
 #include "host/report/metrics.h"
+#include "tests/print_names.h"
 #include "tests/shared_bench.h"
 
 namespace glintmark {

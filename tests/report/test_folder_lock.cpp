@@ -73,8 +73,23 @@ TEST(FolderLock, LinksAndPipesAreNotFollowed) {
   EXPECT_EQ(readFile(folder / "target"), "kept");
   std::filesystem::remove(folder / ".lock");
   ASSERT_EQ(mkfifo((folder / ".lock").c_str(), 0600), 0);
-  EXPECT_NE(messageOf<Error>([&] { FolderLock lock(folder.path()); }).find("no regular file"),
+  EXPECT_NE(messageOf<Error>([&] { FolderLock lock(folder.path()); }).find("not the lock file"),
             std::string::npos);
+}
+
+// "results" locks "results.lock", which may be somebody's file.
+TEST(FolderLock, FilesOfOthersStayAsTheyAre) {
+  const TempFolder folder;
+  for (const std::string text :
+       {"a lock of another program", "12 13", "1234567890123456789012345678901234"}) {
+    writeFile(folder / ".lock", text);
+    EXPECT_NE(messageOf<Error>([&] { FolderLock lock(folder.path()); }).find("not the lock file"),
+              std::string::npos);
+    EXPECT_EQ(readFile(folder / ".lock"), text);
+  }
+  writeFile(folder / ".lock", "");  // of a run that was killed early
+  { const FolderLock lock(folder.path()); }
+  EXPECT_FALSE(std::filesystem::exists(folder / ".lock"));
 }
 
 TEST(FolderLock, OnlyFilesOfTheDeadAreRemoved) {

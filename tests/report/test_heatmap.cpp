@@ -9,6 +9,7 @@
 #include "host/core/error.h"
 #include "host/report/picture/colour_map.h"
 #include "host/report/picture/text_drawing.h"
+#include "tests/report/widest_line.h"
 
 namespace glintmark {
 namespace {
@@ -70,6 +71,10 @@ TEST(Histogram, OneValueAndHugeValues) {
             std::string::npos);
   const std::string text = histogramText(cellDistribution(cellsOf(2, 1, {8, 3e9f})));
   EXPECT_LT(text.size(), 3000u);
+  for (const std::size_t columns : {40, 60}) {
+    const std::string narrow = histogramText(cellDistribution(cellsOf(2, 1, {8, 9})), columns);
+    EXPECT_LE(widestLine(narrow), columns);
+  }
 }
 
 TEST(Heatmap, FixedScaleIsThePapers) {

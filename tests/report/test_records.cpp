@@ -83,6 +83,7 @@ TEST(Records, JsonRoundTripIsExact) {
 // Files of before there were machine states and timers, as those in results/ are.
 TEST(Records, OlderFilesAreRead) {
   nlohmann::json json = nlohmann::json::parse(toJson(sampleResults()));
+  json.erase("sum");
   for (const char* field : {"memory_bytes", "begin", "end", "others_cores", "throttled_s", "busy"})
     json["run"].erase(field);
   for (auto& record : json["records"]) record.erase("timer");
@@ -90,6 +91,39 @@ TEST(Records, OlderFilesAreRead) {
   EXPECT_EQ(back.run.busy, "");
   EXPECT_EQ(back.run.end.peak_gflops, 0);
   EXPECT_EQ(back.records.at(0).timer, "");
+}
+
+// However another tool spells it: keys in other order, no blanks, whole numbers without a point.
+TEST(Records, ChecksumIsOfWhatAFileHolds) {
+  const std::string text = toJson(sampleResults());
+  std::string spelt = nlohmann::json::parse(text).dump(4);
+  ASSERT_NE(spelt.find("451.25,"), std::string::npos);
+  spelt.replace(spelt.find("451.25,"), 7, "45125e-2,");
+  expectEqual(fromJson(spelt, "text").records[1], sampleResults().records[1]);
+}
+
+// Of every byte every bit: refused, or the same figures.
+TEST(Records, NoFlippedBitChangesAFigure) {
+  const std::string whole = toJson(sampleResults());
+  const std::string figures = toCsv(sampleResults().records);
+  int refused = 0;
+  for (std::size_t i = 0; i < whole.size(); ++i)
+    for (int bit = 0; bit < 8; ++bit) {
+      std::string damaged = whole;
+      damaged[i] = static_cast<char>(damaged[i] ^ 1 << bit);
+      try {
+        const Results read = fromJson(damaged, "text");
+        EXPECT_EQ(toCsv(read.records), figures) << i << ' ' << bit;
+        EXPECT_EQ(headerLine(read.run), headerLine(sampleResults().run)) << i << ' ' << bit;
+      } catch (const Error&) {
+        ++refused;
+      }
+    }
+  EXPECT_GT(refused, static_cast<int>(whole.size()) * 4);
+  std::string digit = whole;
+  digit.replace(digit.find("24.75"), 5, "24.76");
+  EXPECT_NE(messageOf<Error>([&] { fromJson(digit, "a.json"); }).find("a.json is damaged"),
+            std::string::npos);
 }
 
 TEST(Records, LinesRoundTripAndHaveNoNewline) {

@@ -1,7 +1,6 @@
 // glTF files that ask for more than they hold: depth, memory, numbers of parts.
 #include <sys/resource.h>
 
-#include <chrono>
 #include <fstream>
 
 #include "tests/scene/gltf_text.h"
@@ -49,7 +48,8 @@ TEST(Gltf, ManyNodesOfOneMeshTakeNoMoreMemoryThanIsFree) {
 }
 
 TEST(Gltf, ManyMaterialsAreFoundByTheirNumbers) {
-  constexpr std::size_t kMaterials = 100000;  // searched one by one they take a minute
+  // Searched one by one they take longer than ctest waits.
+  constexpr std::size_t kMaterials = 240000;
   GltfText text = quadText();
   const Json primitive = text.primitive();
   for (std::size_t i = 0; i < kMaterials; ++i) {
@@ -57,9 +57,7 @@ TEST(Gltf, ManyMaterialsAreFoundByTheirNumbers) {
     text.json["meshes"][0]["primitives"][i] = primitive;
     text.json["meshes"][0]["primitives"][i]["material"] = kMaterials - 1 - i;
   }
-  const auto begin = std::chrono::steady_clock::now();
   const PartMesh mesh = gltf(text);
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
   ASSERT_EQ(mesh.parts.size(), kMaterials);
   EXPECT_EQ(mesh.mesh.triangle_materials[0], kMaterials - 1);
 }

@@ -1,5 +1,4 @@
 // OBJ files: numbers, encodings, faces of every kind.
-#include <chrono>
 #include <cmath>
 
 #include "host/scene/import/text_scanner.h"
@@ -100,11 +99,9 @@ TEST(Obj, FacesBesideTexturedOnesGetUvsOfTheirOwn) {
 
 TEST(Obj, ManyUvsAtOnePlaceTakeLinearTime) {
   std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\n";
-  constexpr int kFaces = 200000;
+  constexpr int kFaces = 800000;  // searched one by one they take longer than ctest waits
   for (int i = 0; i < kFaces; ++i) text += "vt " + std::to_string(i) + " 1\nf 1/-1 2/1 3/2\n";
-  const auto begin = std::chrono::steady_clock::now();
   EXPECT_EQ(obj(text).mesh.triangleCount(), static_cast<std::size_t>(kFaces));
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(60));
 }
 
 TEST(Obj, DentedPolygonsKeepTheirArea) {

@@ -1,6 +1,5 @@
 // STL files: binary and text, what is one vertex, and what is refused.
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <numbers>
@@ -112,13 +111,12 @@ TEST(Stl, SolidsOfATextAreParts) {
 
 TEST(Stl, ManySolidsAreFoundByTheirNames) {
   std::string content;
-  for (int i = 0; i < 100000; ++i) content += "solid " + std::to_string(i) + "\n";
+  constexpr std::uint32_t kSolids = 400000;
+  for (std::uint32_t i = 0; i < kSolids; ++i) content += "solid " + std::to_string(i) + "\n";
   content += text({kSquareFacets[0]}, "7") + text(kSquareFacets, "last");
-  const auto begin = std::chrono::steady_clock::now();
-  const PartMesh mesh = stl(content);  // searched one by one they take 20 s
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
-  EXPECT_EQ(mesh.parts.size(), 100001u);
-  EXPECT_EQ(mesh.mesh.triangle_materials, (std::vector<std::uint32_t>{7, 100000, 100000}));
+  const PartMesh mesh = stl(content);  // searched one by one they take longer than ctest waits
+  EXPECT_EQ(mesh.parts.size(), kSolids + 1);
+  EXPECT_EQ(mesh.mesh.triangle_materials, (std::vector<std::uint32_t>{7, kSolids, kSolids}));
 }
 
 TEST(Stl, LongFilesAreReadInPieces) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
 
 #include "host/experiment/all_tables.h"
@@ -10,6 +11,7 @@
 #include "host/experiment/tan05/tan05_summary.h"
 #include "host/experiment/tan05/tan05_table.h"
 #include "host/experiment/tan05/tan05_view.h"
+#include "host/frame/effect/normal_maps.h"
 #include "host/report/record/case_name.h"
 
 namespace glintmark {
@@ -44,21 +46,42 @@ bool hasView(const std::string& scene, const std::string& view) {
   return view != "oblique" || scene == "disk";
 }
 
-std::vector<std::string> viewCases(const BenchOptions& options) {
+using MethodsByScene = std::map<std::string, std::vector<Tan05Method>>;
+
+// Of each scene; says which it has to leave out. As they ship, scenes go with every method.
+MethodsByScene methodsByScene(const BenchRun& run) {
+  MethodsByScene methods;
+  CommonOptions quiet = run.session().common;
+  quiet.quiet = true;
+  for (const std::string& name : selectNames(tan05Scenes(), run.options().scenes)) {
+    std::vector<Tan05Method>& own = methods[name] = tan05Methods();
+    if (quiet.overrides.empty()) continue;
+    own = tan05MethodsOf(openScene(quiet, name));
+    if (own.size() < tan05Methods().size() && !run.session().common.quiet)
+      fmt::print(
+          stderr,
+          "note: scene {} has more lobes than the {} that method anisotropic takes, which is "
+          "left out\n",
+          name, kMostAnisotropicLobes);
+  }
+  return methods;
+}
+
+std::vector<std::string> viewCases(const BenchOptions& options, const MethodsByScene& methods) {
   std::vector<std::string> cases;
   for (const std::string& scene : selectNames(tan05Scenes(), options.scenes))
     for (const std::string& view : selectNames(tan05Views(), options.views))
       if (hasView(scene, view))
-        for (const Tan05Method& method : tan05Methods())
+        for (const Tan05Method& method : methods.at(scene))
           cases.push_back(CaseName{{scene, view, method.name}}.text());
   return cases;
 }
 
-std::vector<std::string> distanceCases(const BenchOptions& options) {
+std::vector<std::string> distanceCases(const BenchOptions& options, const MethodsByScene& methods) {
   std::vector<std::string> cases;
   for (const std::string& scene : selectNames(tan05Scenes(), options.scenes))
     for (const std::string& view : selectNames(distanceViews(), options.views))
-      for (const Tan05Method& method : tan05Methods())
+      for (const Tan05Method& method : methods.at(scene))
         cases.push_back(CaseName{{scene, view, method.name}}.text());
   return cases;
 }
@@ -120,9 +143,10 @@ class ViewMeasurer {
 
 void measure(BenchRun& run) {
   ViewMeasurer measurer(run);
-  run.measureCases(tan05Spec().name, viewCases(run.options()), tan05ViewMetrics(),
+  const MethodsByScene methods = methodsByScene(run);
+  run.measureCases(tan05Spec().name, viewCases(run.options(), methods), tan05ViewMetrics(),
                    [&](const std::string& name) { return measurer.view(name); });
-  run.measureCases(tan05Spec().name, distanceCases(run.options()), tan05DistanceMetrics(),
+  run.measureCases(tan05Spec().name, distanceCases(run.options(), methods), tan05DistanceMetrics(),
                    [&](const std::string& name) { return measurer.distance(name); });
   if (!run.options().views.empty()) return;
   const std::vector<std::string> scenes = selectNames(tan05Scenes(), run.options().scenes);

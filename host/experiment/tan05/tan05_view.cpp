@@ -10,6 +10,7 @@
 #include "host/experiment/shifted_view.h"
 #include "host/experiment/survival.h"
 #include "host/experiment/tan05/tan05_table.h"
+#include "host/frame/effect/normal_maps.h"
 #include "host/report/metrics.h"
 #include "host/report/picture/picture_strip.h"
 #include "host/report/picture/tonemap.h"
@@ -66,7 +67,7 @@ std::string caseOf(const Tan05Scene& scene, const std::string& view_name,
 
 // Those in which no driver has died: the others are measured without them.
 std::vector<Tan05Method> methodsLeft(const Tan05Scene& scene, const std::string& view_name) {
-  std::vector<Tan05Method> methods = tan05Methods();
+  std::vector<Tan05Method> methods = tan05MethodsOf(scene.scene);
   std::erase_if(methods, [&](const Tan05Method& method) {
     return isLost(tan05Spec().name, caseOf(scene, view_name, method));
   });
@@ -174,6 +175,13 @@ const std::vector<Tan05Method>& tan05Methods() {
       {.name = "peaks_4", .method = NormalMethod::kFournier, .peaks = 4},
       {"mip", NormalMethod::kMip},
       {"fixed", NormalMethod::kFixed}};
+  return methods;
+}
+
+std::vector<Tan05Method> tan05MethodsOf(const Scene& scene) {
+  std::vector<Tan05Method> methods = tan05Methods();
+  std::erase_if(methods,
+                [&](const Tan05Method& method) { return !takesLobesOf(method.method, scene); });
   return methods;
 }
 

@@ -25,6 +25,8 @@ struct Tan05Method {
 /// fitted without regard to their neighbours, [TAN05] Figs. 5 and 6; "peaks_4" has four peaks,
 /// "lobes_8" eight lobes.
 const std::vector<Tan05Method>& tan05Methods();
+/// Those that take as many lobes as the materials of `scene` have.
+std::vector<Tan05Method> tan05MethodsOf(const Scene& scene);
 
 struct Tan05Settings {
   ShadingOptions shading;  // 500 x 500, the paper's

@@ -4,6 +4,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -215,6 +216,13 @@ TextureNeed textureNeed(int width_px, int height_px, const KernelConfig& config)
 bool readsMixture(NormalMethod method) {
   return method == NormalMethod::kGmm || method == NormalMethod::kVmfLobes ||
          method == NormalMethod::kAnisotropic;
+}
+
+bool takesLobesOf(NormalMethod method, const Scene& scene) {
+  return method != NormalMethod::kAnisotropic ||
+         std::ranges::none_of(scene.materials, [](const Material& material) {
+           return material.normal_map && material.normal_map->lobes > kMostAnisotropicLobes;
+         });
 }
 
 MixtureOptions mixtureOptions(int lobes, MixtureOrder order, int iterations) {

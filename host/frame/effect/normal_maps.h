@@ -27,8 +27,14 @@ struct TextureNeed {
 };
 TextureNeed textureNeed(int width_px, int height_px, const KernelConfig& config);
 
+/// What eight float4 of method anisotropic hold.
+inline constexpr int kMostAnisotropicLobes = 5;
+
 /// Does a method read a mixture of normals, of as many lobes as the material has?
 bool readsMixture(NormalMethod method);
+
+/// Does `method` take as many lobes as the materials of `scene` have?
+bool takesLobesOf(NormalMethod method, const Scene& scene);
 
 /// How the mixtures of those methods are fitted; `iterations` 0: the fit's default.
 MixtureOptions mixtureOptions(int lobes, MixtureOrder order, int iterations);

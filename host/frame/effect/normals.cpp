@@ -11,8 +11,6 @@
 namespace glintmark {
 namespace {
 
-constexpr int kMostAnisotropicLobes = 5;  // what eight float4 hold
-
 // The ground truth reads the map's finest level.
 void chooseNormals(const ProgramCall& call, KernelConfig& config) {
   const auto& source = call.material.normal_map;

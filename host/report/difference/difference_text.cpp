@@ -42,7 +42,7 @@ std::string differenceText(const ImageDifference& difference, const std::string&
     for (const double value : error.values) row.push_back(compactNumber(value));
     quantiles.addRow(row);
   }
-  return fmt::format("{} against {}: {}x{} pixels of {}, {:.3g} % of them not black\n\n{}\n{}\n{}",
+  return fmt::format("{} against {}\n{}x{} pixels of {}, {:.3g} % of them not black\n\n{}\n{}\n{}",
                      name, reference, difference.width, difference.height,
                      difference.is_radiance ? "radiance" : "display values",
                      100 * difference.lit_share, metrics.toString(), quantiles.toString(),

@@ -11,7 +11,7 @@ namespace glintmark {
 namespace {
 
 constexpr std::size_t kMostBins = 16;
-constexpr double kBarColumns = 50;
+constexpr double kNumberColumns = 31, kLeastBarColumns = 5, kMostBarColumns = 50;
 // Counts above this share the last entry, so that a wild count (the uncapped method can reach
 // millions) does not take a huge table.
 constexpr std::size_t kMostCounts = std::size_t{1} << 20;
@@ -37,7 +37,7 @@ CellDistribution cellDistribution(const Image& cells) {
   return result;
 }
 
-std::string histogramText(const CellDistribution& distribution) {
+std::string histogramText(const CellDistribution& distribution, std::size_t columns) {
   if (distribution.glint_px == 0) return "no pixel of the image visits a cell\n";
   const std::vector<std::size_t>& counts = distribution.pixels_by_count;
   const auto first = static_cast<std::size_t>(distribution.min);
@@ -50,6 +50,8 @@ std::string histogramText(const CellDistribution& distribution) {
   }
   const auto fullest = static_cast<double>(std::ranges::max(bins));
 
+  const double longest = std::clamp<double>(static_cast<double>(columns) - kNumberColumns,
+                                            kLeastBarColumns, kMostBarColumns);
   std::string text = "     cells      pixels\n";
   for (std::size_t bin = 0; bin < bins.size(); ++bin) {
     const std::size_t low = counts.size() - span + bin * bin_width;
@@ -57,7 +59,7 @@ std::string histogramText(const CellDistribution& distribution) {
     const std::string range =
         low == high ? fmt::format("{}", low) : fmt::format("{}-{}", low, high);
     const auto pixels = static_cast<double>(bins[bin]);
-    const auto bar = static_cast<std::size_t>(std::ceil(kBarColumns * pixels / fullest));
+    const auto bar = static_cast<std::size_t>(std::ceil(longest * pixels / fullest));
     text += fmt::format("{:>10} {:>11} {:>6.2f}% {}\n", range, bins[bin],
                         100 * pixels / static_cast<double>(distribution.glint_px),
                         std::string(bar, '#'));

@@ -17,8 +17,8 @@ struct CellDistribution {
 };
 CellDistribution cellDistribution(const Image& cells);
 
-/// The distribution as lines of text of at most 100 columns: bins of whole counts with pixel
-/// counts, percentages and bars. Says so if there are no glint pixels.
-std::string histogramText(const CellDistribution& distribution);
+/// The distribution as lines of text of at most `columns`, 36 or more: bins of whole counts with
+/// pixel counts, percentages and bars, of 50 columns at most. Says so if there are no glint pixels.
+std::string histogramText(const CellDistribution& distribution, std::size_t columns = 100);
 
 }  // namespace glintmark

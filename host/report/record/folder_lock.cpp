@@ -62,6 +62,17 @@ bool isEnding(pid_t process) {
   return false;
 }
 
+// Is there nothing but a holder's number, or what a machine that stopped left of it? Somebody
+// else's file may go by the same name: it would be emptied, and removed at the end.
+bool isOurs(int descriptor) {
+  char text[32] = {};
+  const ssize_t size = pread(descriptor, text, sizeof(text), 0);
+  return size >= 0 && size < static_cast<ssize_t>(sizeof(text)) &&
+         std::string_view(text, static_cast<std::size_t>(size))
+                 .find_first_not_of(std::string_view("0123456789\n\0", 12)) ==
+             std::string_view::npos;
+}
+
 bool isRegular(int descriptor) {
   struct stat status = {};
   return fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
@@ -88,9 +99,9 @@ FolderLock::FolderLock(const fs::path& file, const std::string& what, const std:
                               file_.string()));
     if (descriptor_ < 0)
       throw Error(fmt::format("cannot write {}: {}", file_.string(), std::strerror(errno)));
-    if (!isRegular(descriptor_)) {
+    if (!isRegular(descriptor_) || !isOurs(descriptor_)) {
       close(descriptor_);
-      throw Error(fmt::format("{} is no regular file, expected a lock file or none; remove it",
+      throw Error(fmt::format("{} is not the lock file of a run, expected one or none; remove it",
                               file_.string()));
     }
     for (int tries = 1; flock(descriptor_, LOCK_EX | LOCK_NB) != 0; ++tries) {

@@ -6,10 +6,12 @@
 namespace glintmark {
 
 /// Holds the file `.lock` in a folder locked (flock) as long as it lives. The system frees the lock
-/// of a program that was killed, so a file left behind stands in nobody's way.
+/// of a program that was killed, so a file left behind stands in nobody's way; the next holder
+/// takes it away.
 class FolderLock {
  public:
-  /// Throws Error naming the process that holds the lock, or if the file cannot be made. On file
+  /// Throws Error naming the process that holds the lock, or if the file cannot be made or is
+  /// none of a lock. On file
   /// systems without locks it does nothing.
   explicit FolderLock(const std::filesystem::path& folder);
   /// The same with a lock file of another name; `what` is locked, `advice` is what else to do.

@@ -13,6 +13,7 @@
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
 #include "host/core/fnv1a.h"
+#include "host/core/output_files.h"
 #include "host/report/record/records.h"
 
 namespace glintmark {
@@ -119,7 +120,10 @@ RecordLog RecordLog::create(const std::filesystem::path& path, const RunInfo& ru
         fmt::format("{} is no regular file, expected a log or none; remove it", path.string()));
   if (std::filesystem::is_regular_file(path, error)) {
     std::filesystem::path old = path;
-    std::filesystem::rename(path, old += ".old", error);
+    old += ".old";
+    requireNoInput(path);
+    requireNoInput(old);
+    std::filesystem::rename(path, old, error);
     if (error) throw Error(fmt::format("cannot rename {}: {}", path.string(), error.message()));
   }
   RecordLog log(path, false);
@@ -129,7 +133,7 @@ RecordLog RecordLog::create(const std::filesystem::path& path, const RunInfo& ru
 
 RecordLog RecordLog::resume(const std::filesystem::path& path, const RunInfo& run) {
   if (!std::filesystem::exists(path)) return create(path, run);
-  LogContent content = parseLog(readFile(path), path.string());
+  LogContent content = parseLog(readFile(path, FileRole::kOwn), path.string());
   if (!content.run) return create(path, run);
   requireSameSetup(*content.run, run, path.string());
 

@@ -8,6 +8,7 @@
 
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
+#include "host/core/fnv1a.h"
 #include "host/core/json_depth.h"
 
 namespace glintmark {
@@ -166,6 +167,36 @@ std::string dump(const Json& json, int indent) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
+// Keys in order, numbers as doubles: however a tool spells what the file holds, it stays the same.
+nlohmann::json canonical(const Json& json) {
+  if (json.is_number()) return json.get<double>();
+  if (!json.is_structured()) return json;
+  nlohmann::json out = json.is_array() ? nlohmann::json::array() : nlohmann::json::object();
+  for (const auto& [key, value] : json.items())
+    if (json.is_array())
+      out.push_back(canonical(value));
+    else
+      out[key] = canonical(value);
+  return out;
+}
+
+constexpr const char* kSumKey = "sum";
+
+// Of all of a file but its sum.
+std::string sumOf(Json file) {
+  file.erase(kSumKey);
+  return fmt::format("{:016x}",
+                     fnv1a(canonical(file).dump(-1, ' ', false, Json::error_handler_t::replace)));
+}
+
+void requireSum(const Json& file, const std::string& source) {
+  if (file.contains(kSumKey) && file[kSumKey] != sumOf(file))
+    throw Error(
+        fmt::format("{} is damaged or was edited: its checksum is another's; take the file as it "
+                    "was written, or take \"{}\" out of one that was edited on purpose",
+                    source, kSumKey));
+}
+
 std::string csvField(const std::string& text) {
   if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
   std::string quoted = "\"";
@@ -181,14 +212,15 @@ std::string csvField(const std::string& text) {
 std::string toJson(const Results& results) {
   Json records = Json::array();
   for (const Record& record : results.records) records.push_back(recordToJson(record));
-  const Json file = {
-      {"schema", kResultsSchema}, {"run", runToJson(results.run)}, {"records", records}};
+  Json file = {{"schema", kResultsSchema}, {"run", runToJson(results.run)}, {"records", records}};
+  file[kSumKey] = sumOf(file);
   return dump(file, 1) + "\n";
 }
 
 Results fromJson(const std::string& text, const std::string& source) {
   const Json json = parse(text, source);
   requireSchema(json, source);
+  requireSum(json, source);
   return readFields(source, [&] {
     Results results;
     results.run = runFromJson(json.at("run"));

@@ -19,11 +19,12 @@ struct Results {
 };
 
 /// The whole file as indented JSON. Values that JSON cannot hold (NaN, infinity) become null and
-/// the record invalid.
+/// the record invalid. A last field `sum` is a hash of the rest, however numbers and blanks in it
+/// are spelt.
 std::string toJson(const Results& results);
 
 /// Inverse of toJson. `source` names the text in errors: not JSON (or cut off), another schema, a
-/// field missing or of the wrong type.
+/// field missing or of the wrong type, a `sum` that is another's; files without one are read too.
 Results fromJson(const std::string& text, const std::string& source);
 
 /// One line each of JSON without newlines, for the running log. `more` counts the records behind

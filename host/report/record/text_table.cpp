@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "host/core/error.h"
+#include "host/report/record/terminal_text.h"
 
 namespace glintmark {
 
@@ -30,7 +31,7 @@ void TextTable::addRule() {
 std::string TextTable::toString() const {
   std::vector<std::size_t> widths(rows_.front().size());
   for (const auto& row : rows_) {
-    for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].size());
+    for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], columnsOf(row[c]));
   }
   const std::size_t cells = std::accumulate(widths.begin(), widths.end(), std::size_t{0});
   const std::size_t gaps = widths.size() - 1;
@@ -46,11 +47,13 @@ std::string TextTable::toString() const {
       text += std::string(total, '-') + '\n';
       continue;
     }
-    std::string line = fmt::format("{:<{}.{}}", row[0], widths[0], widths[0]);
+    const std::vector<std::string> names = cellLines(row[0], widths[0]);
+    std::string line = fmt::format("{:<{}}", names.front(), widths[0]);
     for (std::size_t c = 1; c < row.size(); ++c) {
       line += fmt::format("{:>{}}", row[c], widths[c] + gap);
     }
     text += line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
+    for (std::size_t i = 1; i < names.size(); ++i) text += names[i] + '\n';
   }
   return text;
 }

@@ -8,8 +8,8 @@ namespace glintmark {
 inline constexpr std::size_t kTableColumnsLimit = 100;
 
 /// Columns as wide as their widest cell, two spaces between them; one space if lines would be wider
-/// than kTableColumnsLimit, and if they still are, the first column is cut to fit. The first column
-/// is left-aligned, the others right-aligned.
+/// than kTableColumnsLimit, and if they still are, the first column's cells take more lines than
+/// one. The first column is left-aligned, the others right-aligned.
 class TextTable {
  public:
   explicit TextTable(std::vector<std::string> header);

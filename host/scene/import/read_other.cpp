@@ -3,6 +3,7 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/Importer.hpp>
 
 #include <fmt/format.h>
@@ -38,12 +39,22 @@ void checkFaces(const aiMesh& mesh, const std::string& source) {
   }
 }
 
+/// What assimp opens beside the file that it was given is an input too.
+class InputSystem : public Assimp::DefaultIOSystem {
+ public:
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    if (Exists(file)) const InputFile input(file);
+    return DefaultIOSystem::Open(file, mode);
+  }
+};
+
 class OtherReader {
  public:
   explicit OtherReader(const std::filesystem::path& file) : source_(file.string()) {
     { const InputFile is_regular(file); }
     importer_.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
                                  aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+    importer_.SetIOHandler(new InputSystem);  // which is its own then
     if (importer_.ReadFile(source_, 0) == nullptr) failToRead();
     requireFaces();
     for (unsigned m = 0; m < importer_.GetScene()->mNumMeshes; ++m)
