@@ -107,8 +107,10 @@ void addProfileCommand(Command app, CommandLine& line) {
       "  glintmark profile sponza --view grazing -o sponza_code\n"
       "  perf record -g glintmark profile snow --seconds 30\n"
       "  ncu glintmark profile snow --device NVIDIA --seconds 1");
-  command.callback(
-      [options, &line] { line.action = [options, &line] { return runProfile(line, *options); }; });
+  command.callback([options, &line] {
+    line.opens_device = true;
+    line.action = [options, &line] { return runProfile(line, *options); };
+  });
 }
 
 }  // namespace glintmark

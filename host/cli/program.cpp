@@ -11,6 +11,7 @@
 #include "host/core/error.h"
 #include "host/core/progress.h"
 #include "host/experiment/rank_watch.h"
+#include "host/experiment/survival.h"
 #include "host/parallel/ranks.h"
 #include "host/report/record/machine.h"
 #include "host/report/record/run_info.h"
@@ -107,7 +108,7 @@ int runProgram(int argc, const char* const* argv) {
   if (const std::optional<int> done = parser.parse(argc, argv)) return *done;
   joinRanksOf(line);
   if (line.common.quiet) Progress::silenceAll();
-  return line.action();
+  return line.opens_device ? runWatched(line.action) : line.action();
 }
 
 }  // namespace glintmark

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "host/core/error.h"
+#include "host/core/last_words.h"
 
 namespace glintmark {
 namespace {
@@ -25,6 +26,7 @@ extern "C" void sayThatADriverDied(int number) {
     return;
   }
   [[maybe_unused]] const auto written = write(STDERR_FILENO, kSentence.data(), kSentence.size());
+  leaveExitCode(kExitNoDevice);
   _exit(kExitNoDevice);
 }
 

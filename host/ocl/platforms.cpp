@@ -13,6 +13,7 @@
 
 #include "host/core/atomic_file.h"
 #include "host/ocl/driver_death.h"
+#include "host/ocl/driver_visit.h"
 
 namespace glintmark {
 namespace {
@@ -146,6 +147,7 @@ std::vector<std::string> brokenDrivers() {
 }
 
 FoundPlatforms findPlatforms() {
+  const DriverVisit visit("looking for OpenCL devices", kLaunchPatience);
   const DriverDeath death;
   FoundPlatforms found;
   for (const cl::Platform& platform : allPlatforms(found.list.problem)) {
