@@ -65,7 +65,8 @@ int runProfile(const CommandLine& line, const ProfileOptions& options) {
   Device device = openDevice(line.common);
   FrameRenderer renderer(device, scene, view, shading, line.common.threads);
   renderer.prepare();
-  renderer.shade();  // compiles
+  renderer.shade();         // compiles
+  renderer.readRadiance();  // throws if that was all
   ProgramCache cache(device);
   if (!options.folder.empty()) writePrograms(options.folder, cache, renderer.configs());
 

@@ -92,6 +92,8 @@ std::string prepareDriverCache() try {
   static bool done = false;
   if (done) return "";
   done = true;
+  setenv("PATH", "/usr/local/bin:/usr/bin:/bin",
+         0);  // without any, PoCL finds no linker and aborts
   const Wanted wanted = poclFolder();
   const std::string fault = faultOf(wanted);
   if (fault.empty()) return "";

@@ -2,16 +2,10 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
-#include <cctype>
-
 #include "tests/faulty_driver/faulty.h"
 
 namespace glintmark {
 namespace {
-
-std::vector<std::string> render(const std::string& file) {
-  return {"render", "screen_plane", "--quiet", "--size", "32x18", "-o", file};
-}
 
 struct Ending {
   const char* faults;
@@ -27,7 +21,7 @@ class Endings : public testing::TestWithParam<Ending> {};
 // exit(0) is the worst of them: all looks well.
 TEST_P(Endings, AreSaid) {
   const TempFolder folder;
-  const ProcessResult result = runFaulty(render(folder / "p.exr"), GetParam().faults);
+  const ProcessResult result = runFaulty(renderPlane(folder / "p.exr"), GetParam().faults);
   EXPECT_EQ(result.exit_code, 3) << result.err;
   EXPECT_NE(result.err.find(GetParam().sentence), std::string::npos) << result.err;
   EXPECT_EQ(countOf(result.err, "glintmark: "), 1u) << result.err;
@@ -46,16 +40,11 @@ INSTANTIATE_TEST_SUITE_P(
         Ending{"crash=shade", "while launching kernel 'shade': its process ended by signal 11"},
         Ending{"at=launching:overflow", "while launching kernel 'probeTriad': its process ended"},
         Ending{"at=reading:_exit0", "while reading"}),
-    [](const auto& tested) {
-      std::string name = tested.param.faults;
-      for (char& c : name)
-        if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
-      return name;
-    });
+    [](const auto& tested) { return testName(tested.param.faults); });
 
 TEST(Endings, ACrashAtTheCloseIsSaidOnce) {
   const TempFolder folder;
-  const ProcessResult result = runFaulty(render(folder / "p.exr"), "at=closing:crash");
+  const ProcessResult result = runFaulty(renderPlane(folder / "p.exr"), "at=closing:crash");
   EXPECT_EQ(result.exit_code, 3) << result.err;
   EXPECT_NE(result.err.find("while releasing"), std::string::npos) << result.err;
 }
@@ -64,7 +53,7 @@ TEST(Endings, ACrashAtTheCloseIsSaidOnce) {
 TEST(Endings, WhatDriversDoAtExitIsNoLonger) {
   for (const char* faults : {"at=opening:crash_at_exit", "at=opening:stall_at_exit"}) {
     const TempFolder folder;
-    const ProcessResult result = runFaulty(render(folder / "p.exr"), faults);
+    const ProcessResult result = runFaulty(renderPlane(folder / "p.exr"), faults);
     EXPECT_EQ(result.exit_code, 0) << faults << ": " << result.err;
     EXPECT_EQ(result.err, "");
     EXPECT_TRUE(std::filesystem::exists(folder / "p.exr"));
@@ -89,7 +78,7 @@ TEST(Endings, ADriverThatNeverComesBackIsEnded) {
     const TempFolder folder;
     std::vector<std::string> environment = faultyEnvironment(faults);
     environment.emplace_back("GLINTMARK_DRIVER_S=20");
-    const ProcessResult result = runGlintmark(render(folder / "p.exr"), environment);
+    const ProcessResult result = runGlintmark(renderPlane(folder / "p.exr"), environment);
     EXPECT_EQ(result.exit_code, 3) << faults << ": " << result.err;
     EXPECT_NE(result.err.find(std::string("glintmark: the OpenCL driver was ") + what),
               std::string::npos)
@@ -104,7 +93,7 @@ TEST(Endings, ParentsThatIgnoreChildrenHideNothing) {
   struct sigaction before = {}, ignored = {};
   ignored.sa_handler = SIG_IGN;
   sigaction(SIGCHLD, &ignored, &before);
-  Process process(render(folder / "p.exr"), faultyEnvironment("crash=shade"));
+  Process process(renderPlane(folder / "p.exr"), faultyEnvironment("crash=shade"));
   sigaction(SIGCHLD, &before, nullptr);
   EXPECT_EQ(process.wait().exit_code, 3);
 }

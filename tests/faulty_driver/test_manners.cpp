@@ -1,7 +1,6 @@
 // Drivers that leave the process other than they found it, and say odd things of their devices.
 #include <gtest/gtest.h>
 
-#include <cctype>
 #include <nlohmann/json.hpp>
 
 #include "tests/faulty_driver/faulty.h"
@@ -9,17 +8,13 @@
 namespace glintmark {
 namespace {
 
-std::vector<std::string> render(const std::string& file) {
-  return {"render", "glitter", "--quiet", "--size", "96x64", "-o", file};
-}
-
 // Rasterized in single precision on the host, whose rounding a driver may change.
 class Manners : public testing::TestWithParam<const char*> {};
 
 TEST_P(Manners, ThePictureIsTheSame) {
   const TempFolder folder;
-  ASSERT_EQ(runGlintmark(render(folder / "sane.exr")).exit_code, 0);
-  const ProcessResult result = runFaulty(render(folder / "faulty.exr"), GetParam());
+  ASSERT_EQ(runGlintmark(renderGlitter(folder / "sane.exr")).exit_code, 0);
+  const ProcessResult result = runFaulty(renderGlitter(folder / "faulty.exr"), GetParam());
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.err, "");
   EXPECT_TRUE(samePixels(folder / "faulty.exr", folder / "sane.exr"));
@@ -45,7 +40,7 @@ TEST(Output, HoldsNoWordOfTheDriver) {
   for (const char* when : {"looking", "opening", "building", "launching"}) {
     const TempFolder folder;
     const ProcessResult result =
-        runFaulty(render(folder / "p.exr"), std::string("at=") + when + ":print");
+        runFaulty(renderGlitter(folder / "p.exr"), std::string("at=") + when + ":print");
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(result.out.find("driver: a word"), std::string::npos) << when << result.out;
     EXPECT_NE(result.err.find("driver: a word"), std::string::npos) << when << result.err;
@@ -57,7 +52,8 @@ TEST(Output, LiesWhereItWasAsked) {
   const TempFolder folder;
   const std::filesystem::path here = std::filesystem::current_path();
   std::filesystem::current_path(folder.path());
-  const ProcessResult result = runFaulty(render("p.exr"), "at=opening:chdir at=building:chdir");
+  const ProcessResult result =
+      runFaulty(renderGlitter("p.exr"), "at=opening:chdir at=building:chdir");
   std::filesystem::current_path(here);
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_TRUE(std::filesystem::exists(folder / "p.exr"));
