@@ -22,9 +22,11 @@ void requireWritten(const FramePass& pass, const PixelList& list, std::span<cons
   const auto unwritten = std::ranges::count_if(
       own, [](Word word) { return std::bit_cast<std::uint32_t>(word) == kUnwrittenWord; });
   if (unwritten == 0) return;
-  throw DeviceError(fmt::format(
-      "kernel '{}' left {} of {} pixels unwritten on '{}', whose driver says that it ran",
-      pass.kernelName(), unwritten, list.count, pass.deviceName()));
+  throw Error(
+      fmt::format(
+          "kernel '{}' left {} of {} pixels unwritten on '{}', whose driver says that it ran",
+          pass.kernelName(), unwritten, list.count, pass.deviceName()),
+      kExitNoDevice);
 }
 
 // Visits the count of every pixel of glint materials.

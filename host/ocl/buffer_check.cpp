@@ -63,7 +63,8 @@ Held holdsBytes(const Buffer::Impl& buffer, const void* source, std::size_t byte
 }
 
 void throwLostData(const Buffer::Impl& buffer, const std::string& what) {
-  throw DeviceError(fmt::format("the driver of '{}' lost data: {}", buffer.device_name, what));
+  throw Error(fmt::format("the driver of '{}' lost data: {}", buffer.device_name, what),
+              kExitNoDevice);
 }
 
 }  // namespace glintmark

@@ -20,7 +20,7 @@ enum class Held { kAll, kOther, kUnread };
 Held holdsBytes(const Buffer::Impl& buffer, const void* source, std::size_t bytes,
                 std::size_t offset);
 
-/// Throws DeviceError: "the driver of 'DEVICE' lost data: WHAT".
+/// Throws Error (kExitNoDevice): "the driver of 'DEVICE' lost data: WHAT".
 [[noreturn]] void throwLostData(const Buffer::Impl& buffer, const std::string& what);
 
 }  // namespace glintmark
