@@ -44,7 +44,8 @@ bool isLostName(const std::string& name) {
 int lastExitCode(int status) {
   if (const std::optional<int> code = leftExitCode()) return *code;
   const bool killed = WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL;
-  if (wasAskedToEnd(status) && !killed) return exitCodeOf(status);
+  const bool unheard = WIFSIGNALED(status) && WTERMSIG(status) == SIGPIPE;  // as `| head` has it
+  if (unheard || (wasAskedToEnd(status) && !killed)) return exitCodeOf(status);
   if (const std::string hang = leftHang(); !hang.empty()) {
     fmt::print(stderr, "glintmark: the OpenCL driver was {}\n", hang);
     return kExitNoDevice;

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "host/core/error.h"
 #include "host/ocl/upload.h"
 
 namespace glintmark {
