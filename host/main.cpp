@@ -11,6 +11,8 @@
 
 #include "host/cli/program.h"
 #include "host/core/error.h"
+#include "host/core/last_words.h"
+#include "host/core/process_end.h"
 #include "host/experiment/interrupt.h"
 #include "host/parallel/ranks.h"
 
@@ -31,9 +33,7 @@ int internalError(const std::exception& error) {
                              glintmark::kExitCheckFailed);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int runMain(int argc, char** argv) {
   try {
     return glintmark::leaveRanks(afterOutput(glintmark::runProgram(argc, argv)));
   } catch (const glintmark::Error& error) {
@@ -53,4 +53,11 @@ int main(int argc, char** argv) {
   } catch (const std::exception& error) {
     return internalError(error);
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  glintmark::requireChildStatus();
+  glintmark::endProcess(runMain(argc, argv));
 }

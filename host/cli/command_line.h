@@ -11,7 +11,8 @@ namespace glintmark {
 /// returns the exit code.
 struct CommandLine : Session {
   std::function<int()> action;
-  bool shares_work = false;  // among ranks; a command that does not is refused to several
+  bool opens_device = false;  // in a process that this one watches; others see to it themselves
+  bool shares_work = false;   // among ranks; a command that does not is refused to several
 };
 
 void addInfoCommand(Command app, CommandLine& line);

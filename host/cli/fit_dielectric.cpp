@@ -204,6 +204,7 @@ void addFitDielectricCommand(Command fit, CommandLine& line) {
       "  glintmark fit dielectric --ior 2.4 --rays 4e6");
   command.callback([options, &line] {
     line.shares_work = true;
+    line.opens_device = true;
     line.action = [options, &line] { return runFitDielectric(line, *options); };
   });
 }

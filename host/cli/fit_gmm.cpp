@@ -338,6 +338,7 @@ void addFitGmmCommand(Command fit, CommandLine& line) {
     options->has_lobes = lobes.given();
     options->has_height_scale = height_scale.given();
     line.shares_work = true;
+    line.opens_device = true;
     line.action = [options, &line] { return runFitGmm(line.common, *options); };
   });
 }

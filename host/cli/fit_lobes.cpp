@@ -307,6 +307,7 @@ void addFitLobesCommand(Command fit, CommandLine& line) {
       "  glintmark fit lobes --data data/multiscatter.json");
   command.callback([options, &line] {
     line.shares_work = true;
+    line.opens_device = true;
     line.action = [options, &line] { return runFitLobes(line, *options); };
   });
 }

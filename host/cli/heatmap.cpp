@@ -133,6 +133,7 @@ void addHeatmapCommand(Command app, CommandLine& line) {
       "  glintmark heatmap --sweep-angle -o sweep.png --csv sweep.csv");
   command.callback([options, scale, &line] {
     options->scale_given = scale.given();
+    line.opens_device = true;
     line.action = [options, &line] { return runHeatmap(line.common, *options); };
   });
 }

@@ -156,8 +156,10 @@ void addInfoCommand(Command app, CommandLine& line) {
   command.option("--json", options->json, "Also writes all of it to this file").typeName("FILE");
   command.footer(
       "Examples:\n  glintmark info\n  glintmark info --device 1 --width 8 --json info.json");
-  command.callback(
-      [options, &line] { line.action = [options, &line] { return runInfo(line, *options); }; });
+  command.callback([options, &line] {
+    line.opens_device = true;
+    line.action = [options, &line] { return runInfo(line, *options); };
+  });
 }
 
 }  // namespace glintmark

@@ -65,7 +65,8 @@ int runProfile(const CommandLine& line, const ProfileOptions& options) {
   Device device = openDevice(line.common);
   FrameRenderer renderer(device, scene, view, shading, line.common.threads);
   renderer.prepare();
-  renderer.shade();  // compiles
+  renderer.shade();         // compiles
+  renderer.readRadiance();  // throws if that was all
   ProgramCache cache(device);
   if (!options.folder.empty()) writePrograms(options.folder, cache, renderer.configs());
 
@@ -107,8 +108,10 @@ void addProfileCommand(Command app, CommandLine& line) {
       "  glintmark profile sponza --view grazing -o sponza_code\n"
       "  perf record -g glintmark profile snow --seconds 30\n"
       "  ncu glintmark profile snow --device NVIDIA --seconds 1");
-  command.callback(
-      [options, &line] { line.action = [options, &line] { return runProfile(line, *options); }; });
+  command.callback([options, &line] {
+    line.opens_device = true;
+    line.action = [options, &line] { return runProfile(line, *options); };
+  });
 }
 
 }  // namespace glintmark

@@ -13,6 +13,7 @@
 #include "host/core/output_files.h"
 #include "host/core/progress.h"
 #include "host/experiment/rank_watch.h"
+#include "host/experiment/survival.h"
 #include "host/parallel/ranks.h"
 #include "host/report/record/machine.h"
 #include "host/report/record/run_info.h"
@@ -113,7 +114,7 @@ int runProgram(int argc, const char* const* argv) {
   joinRanksOf(line);
   const InputGuard guard;
   if (line.common.quiet) Progress::silenceAll();
-  return line.action();
+  return line.opens_device ? runWatched(line.action) : line.action();
 }
 
 }  // namespace glintmark

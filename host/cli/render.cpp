@@ -393,6 +393,7 @@ void addRenderCommand(Command app, CommandLine& line) {
     options->star_chosen = star.given();
     options->background_chosen = background.given();
     options->frames_given = frames.given();
+    line.opens_device = true;
     line.action = [options, &line] { return runRender(line, *options); };
   });
 }

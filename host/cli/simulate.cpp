@@ -297,6 +297,7 @@ void addSimulateCommand(Command app, CommandLine& line) {
     options->k_given = k.given();
     options->correlation_given = correlation.given();
     line.shares_work = true;
+    line.opens_device = true;
     line.action = [options, &line] { return runSimulate(line, *options); };
   });
 }

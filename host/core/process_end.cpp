@@ -21,10 +21,15 @@ void endByDefault(std::span<const int> signals) {
     if (signal(number, SIG_DFL) == SIG_IGN) signal(number, SIG_IGN);
 }
 
+void requireChildStatus() {
+  signal(SIGCHLD, SIG_DFL);
+}
+
 int awaitProcess(pid_t child) {
+  constexpr int kUnknown = 1 << 8;
   int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
+  while (waitpid(child, &status, 0) < 0)
+    if (errno != EINTR) return kUnknown;
   return status;
 }
 

@@ -15,7 +15,11 @@ void dieWithParent(pid_t parent, int exit_code);
 /// has it, stay so.
 void endByDefault(std::span<const int> signals);
 
-/// Waits for a child, through signals: the status that waitpid() gives.
+/// A program that was started with SIGCHLD ignored never learns how its children end: no more.
+void requireChildStatus();
+
+/// Waits for a child, through signals: the status that waitpid() gives; one of exit code
+/// 1 if the system keeps none.
 int awaitProcess(pid_t child);
 
 /// How a process ended, by that status: "ended by signal 11 (Segmentation fault)", "ended with exit

@@ -12,6 +12,7 @@
 #include "host/frame/map_room.h"
 #include "host/ocl/device_clock.h"
 #include "host/ocl/driver_cache.h"
+#include "host/ocl/trial.h"
 #include "host/report/picture/image_io.h"
 #include "host/report/record/run_info.h"
 
@@ -75,13 +76,19 @@ void prepareDrivers(const CommonOptions& common) {
   if (!note.empty() && !common.quiet) fmt::print(stderr, "note: {}\n", note);
 }
 
-Device openDevice(const CommonOptions& common) {
+Device openUntried(const CommonOptions& common) {
   prepareDrivers(common);
   Device device(rankDevice(common), parseTimer(common.timer));
   requireOneKind(device.info());
   if (!common.quiet)
     device.clock().onDistrust(
         [](const std::string& why) { fmt::print(stderr, "note: {}\n", why); });
+  return device;
+}
+
+Device openDevice(const CommonOptions& common) {
+  Device device = openUntried(common);
+  tryDevice(device, chosenLanes(common, device));
   return device;
 }
 

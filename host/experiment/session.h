@@ -50,6 +50,9 @@ void prepareDrivers(const CommonOptions& common);
 /// is no such device. Of all ranks: each opens another of the devices that are like the chosen one
 /// on its machine; where they are processors and too few, ranks share them, unless each is to have
 /// its `own_device`. Throws Error if there are not enough, or of several kinds.
+Device openUntried(const CommonOptions& common);
+
+/// The same, and tries what it computes. Throws DeviceError if that is wrong.
 Device openDevice(const CommonOptions& common);
 
 /// Is this the only rank that opened its device, or the first of those that share it?

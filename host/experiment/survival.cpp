@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "host/core/error.h"
+#include "host/core/last_words.h"
 #include "host/core/process_end.h"
 #include "host/core/stopwatch.h"
 #include "host/experiment/watched_child.h"
@@ -39,11 +40,29 @@ bool isLostName(const std::string& name) {
   return std::ranges::find(lost_cases, name, &LostCase::name) != lost_cases.end();
 }
 
-// Whatever the child says of itself, a signal it could not say anything of.
+// Whatever the child says of itself; what ended it otherwise it could not say.
 int lastExitCode(int status) {
-  if (WIFSIGNALED(status) && (!wasAskedToEnd(status) || WTERMSIG(status) == SIGKILL))
-    fmt::print(stderr, "glintmark: the process that measures {}\n", whyItEnded(status));
-  return exitCodeOf(status);
+  if (const std::optional<int> code = leftExitCode()) return *code;
+  const bool killed = WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL;
+  const bool unheard = WIFSIGNALED(status) && WTERMSIG(status) == SIGPIPE;  // as `| head` has it
+  if (unheard || (wasAskedToEnd(status) && !killed)) return exitCodeOf(status);
+  if (const std::string hang = leftHang(); !hang.empty()) {
+    fmt::print(stderr, "glintmark: the OpenCL driver was {}\n", hang);
+    return kExitNoDevice;
+  }
+  const std::string call = killed ? "" : callUnderWay();
+  if (!call.empty()) {
+    fmt::print(stderr, "glintmark: an OpenCL driver ended the program while {}: its process {}\n",
+               call, howItEnded(status));
+    return kExitNoDevice;
+  }
+  fmt::print(stderr, "glintmark: the process that did the work {}\n", whyItEnded(status));
+  return std::max<int>(exitCodeOf(status), kExitCheckFailed);
+}
+
+// Both pages that a child writes.
+bool shareWithChild() {
+  return shareCaseAtHand() && shareLastWords();
 }
 
 }  // namespace
@@ -52,24 +71,34 @@ int runSurviving(bool quiet, const std::function<int(bool first)>& measure) {
   // A rank is the process that its launcher knows.
   if (&allRanks() != &aloneRanks()) return measure(true);
   const Stopwatch watch;
-  if (!shareCaseAtHand()) return measure(true);
+  if (!shareWithChild()) return measure(true);
   while (true) {
     lost_seconds = lost_cases.empty() ? 0 : watch.elapsedNs() * 1e-9;
+    forgetLastWords();
     const pid_t child = startChild();
     if (child <= 0) return measure(lost_cases.empty());
     const int status = awaitChild(child);
-    if (*shared_name == '\0' || wasAskedToEnd(status)) return lastExitCode(status);
+    if (leftExitCode() || *shared_name == '\0' || wasAskedToEnd(status))
+      return lastExitCode(status);
     if (isLostName(shared_name)) {  // or it would be lost for ever
       fmt::print(stderr, "glintmark: {} is lost again, its process {}\n", shared_name,
                  howItEnded(status));
       return kExitCheckFailed;
     }
-    lost_cases.push_back({shared_name, howItEnded(status)});
+    const std::string hang = leftHang();
+    lost_cases.push_back({shared_name, hang.empty() ? howItEnded(status) : "was " + hang});
     *shared_name = '\0';
     if (!quiet)
       fmt::print(stderr, "note: {} is lost, its process {}; going on with the next\n",
                  lost_cases.back().name, lost_cases.back().how);
   }
+}
+
+int runWatched(const std::function<int()>& work) {
+  if (&allRanks() != &aloneRanks() || !shareLastWords()) return work();
+  forgetLastWords();
+  const pid_t child = startChild();
+  return child <= 0 ? work() : lastExitCode(awaitChild(child));
 }
 
 bool shareCaseAtHand() {

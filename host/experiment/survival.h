@@ -23,6 +23,12 @@ struct LostCase {
 /// says what was lost.
 int runSurviving(bool quiet, const std::function<int(bool first)>& measure);
 
+/// Runs `work` in a child of this process, which says what ended it if that was not `work`: a
+/// driver's crash, or its calling exit(). Returns `work`'s result in the child, where its
+/// exceptions pass through, and what the program is to return in this process, which is not to have
+/// used OpenCL. Ranks of a launcher have a process that watches them already.
+int runWatched(const std::function<int()>& work);
+
 /// Cases that processes before this one died in.
 const std::vector<LostCase>& lostCases();
 /// Is that case one of them?

@@ -85,9 +85,10 @@ void FramePass::makeBuffers(Band& band, FrameTimes& times) {
   times.upload_ns += band.plane_buffer.write(planes.storage.data(), plane_bytes);
   band.results =
       Buffer(device_, planes.stride * 4 * kernel_.result_planes, BufferPurpose::kRadiance);
-  if (kernel_.truth) band.results.fillZero();
-  if (options_.count_cells)
-    band.counts = Buffer(device_, 2 * planes.stride * 4, BufferPurpose::kCellCounts);
+  band.results.fill(kernel_.truth ? 0 : kUnwrittenWord);
+  if (!options_.count_cells) return;
+  band.counts = Buffer(device_, 2 * planes.stride * 4, BufferPurpose::kCellCounts);
+  band.counts.fill(kUnwrittenWord);
 }
 
 // Rasterizes into the planes' own memory, and puts them into the order that the programs want.

@@ -32,6 +32,9 @@ inline constexpr PassKernel kShadePass = {"shade.cl", "shade", "radiance", 3, fa
 inline constexpr const char* kTruthNumbers[] = {"replicate", "sample_begin", "sample_count"};
 inline constexpr PassKernel kTruthPass = {"truth.cl", "truth", "sums", 3, true, kTruthNumbers};
 
+/// In results that no launch has written: a NaN that no arithmetic makes.
+inline constexpr std::uint32_t kUnwrittenWord = 0x7fc5a5a5u;
+
 class FramePass {
  public:
   /// One material's share of a band.
@@ -79,6 +82,8 @@ class FramePass {
   /// Configurations in use, each once.
   const std::vector<KernelConfig>& configs() const { return configs_; }
   double buildNs() const { return build_ns_; }
+  const char* kernelName() const { return kernel_.name; }
+  const std::string& deviceName() const { return device_.info().name; }
 
  private:
   void makeBands();

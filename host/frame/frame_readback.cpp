@@ -1,9 +1,12 @@
 #include "host/frame/frame_readback.h"
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
 #include <limits>
+#include <span>
 
 #include "host/core/error.h"
 
@@ -11,6 +14,20 @@ namespace glintmark {
 namespace {
 
 constexpr std::uint32_t kLimitedBit = 0x80000000u;
+
+// A driver that says that all work-items ran when none did, or half of them, is caught here.
+template <typename Word>
+void requireWritten(const FramePass& pass, const PixelList& list, std::span<const Word> words) {
+  const auto own = words.subspan(list.offset, list.count);
+  const auto unwritten = std::ranges::count_if(
+      own, [](Word word) { return std::bit_cast<std::uint32_t>(word) == kUnwrittenWord; });
+  if (unwritten == 0) return;
+  throw Error(
+      fmt::format(
+          "kernel '{}' left {} of {} pixels unwritten on '{}', whose driver says that it ran",
+          pass.kernelName(), unwritten, list.count, pass.deviceName()),
+      kExitNoDevice);
+}
 
 // Visits the count of every pixel of glint materials.
 template <typename Visit>
@@ -23,6 +40,7 @@ void forEachCount(const FramePass& pass, const Visit& visit) {
     for (const FramePass::Launch& launch : band.launches) {
       if (!launch.config.count_cells) continue;
       const std::uint32_t end = launch.list.offset + launch.list.count;
+      requireWritten(pass, launch.list, std::span<const std::uint32_t>(words));
       for (std::uint32_t i = launch.list.offset; i < end; ++i)
         visit(band, i, words[i], words[band.planes.stride + i]);
     }
@@ -40,13 +58,15 @@ Image readPlanes(const FramePass& pass, double& readback_ns) {
     std::vector<float> words(planes.stride * 3);
     if (!words.empty()) readback_ns += band.results.read(words.data(), words.size() * 4);
     const auto pixels = planes.plane(Plane::kPixel);
-    for (const PixelList& list : planes.lists)
+    for (const PixelList& list : planes.lists) {
+      requireWritten(pass, list, std::span<const float>(words));
       tbb::parallel_for(list.offset, list.offset + list.count, [&](std::uint32_t i) {
         const auto out = image.at(static_cast<int>(pixels[i] & 0xFFFFu),
                                   band.top_px + static_cast<int>(pixels[i] >> 16));
         for (std::size_t c = 0; c < 3; ++c) out[c] = words[c * planes.stride + i];
         out[3] = 1.0f;
       });
+    }
   }
   return image;
 }

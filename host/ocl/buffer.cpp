@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
+#include <utility>
+#include <vector>
 
 #ifdef __linux__
 #include <sys/mman.h>
@@ -11,6 +13,8 @@
 #include "host/core/large_array.h"
 #include "host/core/stopwatch.h"
 #include "host/core/trace.h"
+#include "host/ocl/buffer_check.h"
+#include "host/ocl/driver_visit.h"
 #include "host/ocl/opencl.h"
 
 namespace glintmark {
@@ -20,8 +24,9 @@ constexpr std::size_t kMinBytes = 4;  // OpenCL has no buffers of size zero
 constexpr std::uintptr_t kPageBytes = 4096;
 constexpr std::size_t kLargePageBytes = std::size_t{2} << 20;  // where a system has them
 
-double mebibytes(unsigned long long bytes) {
-  return static_cast<double>(bytes) / (1024.0 * 1024.0);
+std::string sizeText(unsigned long long bytes) {
+  const double mebibytes = static_cast<double>(bytes) / (1024.0 * 1024.0);
+  return mebibytes < 0.1 ? fmt::format("{} bytes", bytes) : fmt::format("{:.1f} MiB", mebibytes);
 }
 
 // Memory in large pages, if the system gives them; empty if it has none. A pixel's texels lie all
@@ -36,29 +41,43 @@ std::shared_ptr<void> largePages([[maybe_unused]] std::size_t bytes) {
   return nullptr;
 }
 
-std::shared_ptr<Buffer::Impl> allocate(Device& device, std::size_t bytes, cl_mem_flags flags,
-                                       void* host, BufferPurpose purpose,
-                                       const std::string& given_name) {
+// In `host` memory, if given; drivers may refuse to use it in place, and get memory of their own.
+void makeBuffer(Buffer::Impl& impl, const cl::Context& context, void* host) {
+  cl_int status = CL_SUCCESS;
+  if (host) {
+    const cl_mem_flags flags = CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR;
+    if (const cl_mem memory = clCreateBuffer(context(), flags, impl.bytes, host, &status)) {
+      impl.buffer = cl::Buffer(memory);
+      impl.host = host;
+      return;
+    }
+  }
+  impl.buffer = cl::Buffer(context, CL_MEM_READ_WRITE, impl.bytes);
+}
+
+std::shared_ptr<Buffer::Impl> allocate(Device& device, std::size_t bytes, void* host,
+                                       BufferPurpose purpose, const std::string& given_name) {
   const std::string what = given_name.empty() ? std::string(purposeName(purpose)) : given_name;
   const DeviceInfo& info = device.info();
   if (info.max_alloc_bytes > 0 && bytes > info.max_alloc_bytes)
-    throw Error(fmt::format("{} needs {:.1f} MiB, but '{}' allows at most {:.1f} MiB per buffer",
-                            what, mebibytes(bytes), info.name, mebibytes(info.max_alloc_bytes)));
+    throw Error(fmt::format("{} needs {}, but '{}' allows at most {} per buffer", what,
+                            sizeText(bytes), info.name, sizeText(info.max_alloc_bytes)));
   auto impl = std::make_shared<Buffer::Impl>();
   impl->queue = device.impl().queue;
   impl->clock = device.impl().clock;
   impl->bytes = bytes;
   impl->purpose = purpose;
   impl->what = what;
+  impl->device_name = info.name;
+  const ShortVisit visit("allocating " + what);
   try {
-    impl->buffer = cl::Buffer(device.impl().context, flags, bytes, host);
+    makeBuffer(*impl, device.impl().context, host);
   } catch (const cl::Error& error) {
-    throw openClError(fmt::format("allocating {:.1f} MiB for {} on '{}' (it has {})",
-                                  mebibytes(bytes), what, info.name,
-                                  info.global_mem_bytes > 0
-                                      ? fmt::format("{:.1f} MiB", mebibytes(info.global_mem_bytes))
-                                      : "memory of unknown size"),
-                      error);
+    throw openClError(
+        fmt::format(
+            "allocating {} for {} on '{}' (it has {})", sizeText(bytes), what, info.name,
+            info.global_mem_bytes > 0 ? sizeText(info.global_mem_bytes) : "memory of unknown size"),
+        error);
   }
   device.impl().ledger->add(purpose, bytes);
   impl->ledger = device.impl().ledger;
@@ -81,6 +100,7 @@ Buffer::Impl& allocated(Buffer::Impl* impl) {
 template <typename Transfer>
 double timed(const std::string& doing, const DeviceClock& clock, Transfer&& transfer) {
   const TraceScope scope("transfer", doing);
+  const ShortVisit visit(doing);
   const bool traced = isTracing();
   const std::int64_t trace_begin_ns = traced ? traceNowNs() : 0;
   const Stopwatch watch;
@@ -94,16 +114,42 @@ double timed(const std::string& doing, const DeviceClock& clock, Transfer&& tran
   return watch.elapsedNs();
 }
 
+bool isInPlace(const Buffer::Impl& impl, const void* memory) {
+  const auto* begin = static_cast<const char*>(impl.host);
+  return begin && memory >= begin && memory < begin + impl.bytes;
+}
+
+Held lookFor(const Buffer::Impl& impl, const void* source, std::size_t bytes, std::size_t offset) {
+  Held held = Held::kAll;
+  const std::string doing = "reading back " + impl.what;
+  timed(doing, *impl.clock, [&](cl::Event*) { held = holdsBytes(impl, source, bytes, offset); });
+  if (held == Held::kUnread) throwLostData(impl, doing + " gave not all of its bytes");
+  return held;
+}
+
+// By the command for it, which some drivers do not have, or do nothing for.
+bool fillByDevice(Buffer::Impl& impl, std::uint32_t word, std::size_t words) {
+  const std::size_t whole = words * sizeof word;
+  try {
+    timed("clearing " + impl.what, *impl.clock, [&](cl::Event* event) {
+      impl.queue.enqueueFillBuffer(impl.buffer, word, 0, whole, nullptr, event);
+      impl.queue.finish();
+    });
+  } catch (const Error&) {
+    return false;
+  }
+  return lookFor(impl, &word, sizeof word, 0) == Held::kAll &&
+         lookFor(impl, &word, sizeof word, whole - sizeof word) == Held::kAll;
+}
+
 }  // namespace
 
 Buffer::Buffer(Device& device, std::size_t bytes, BufferPurpose purpose, const std::string& what) {
   bytes = std::max(bytes, kMinBytes);
   const std::shared_ptr<void> memory =
       device.info().is_cpu && bytes >= kLeastLargeBytes ? largePages(bytes) : nullptr;
-  impl_ =
-      allocate(device, bytes, CL_MEM_READ_WRITE | (memory ? CL_MEM_USE_HOST_PTR : cl_mem_flags{0}),
-               memory.get(), purpose, what);
-  impl_->memory = memory;
+  impl_ = allocate(device, bytes, memory.get(), purpose, what);
+  if (impl_->host) impl_->memory = memory;
 }
 
 Buffer Buffer::wrapHost(Device& device, void* data, std::size_t bytes, BufferPurpose purpose,
@@ -115,9 +161,7 @@ Buffer Buffer::wrapHost(Device& device, void* data, std::size_t bytes, BufferPur
                             kPageBytes));
   const bool in_place = device.info().is_cpu || device.info().host_unified_memory;
   Buffer buffer;
-  buffer.impl_ = allocate(device, bytes,
-                          CL_MEM_READ_WRITE | (in_place ? CL_MEM_USE_HOST_PTR : cl_mem_flags{0}),
-                          in_place ? data : nullptr, purpose, what);
+  buffer.impl_ = allocate(device, bytes, in_place ? data : nullptr, purpose, what);
   return buffer;
 }
 
@@ -141,26 +185,40 @@ double Buffer::write(const void* source, std::size_t bytes, std::size_t offset) 
   Impl& impl = allocated(impl_.get());
   checkRange(impl, bytes, offset, "write");
   if (bytes == 0) return 0;
-  return timed("writing " + impl.what, *impl.clock, [&](cl::Event* event) {
+  const std::string doing = "writing " + impl.what;
+  const double took_ns = timed(doing, *impl.clock, [&](cl::Event* event) {
     impl.queue.enqueueWriteBuffer(impl.buffer, CL_TRUE, offset, bytes, source, nullptr, event);
   });
+  if (lookFor(impl, source, bytes, offset) != Held::kAll)
+    throwLostData(impl, fmt::format("{} did not bring all of its {} bytes there", doing, bytes));
+  return took_ns;
 }
 
 double Buffer::read(void* target, std::size_t bytes, std::size_t offset) const {
   Impl& impl = allocated(impl_.get());
   checkRange(impl, bytes, offset, "read");
   if (bytes == 0) return 0;
-  return timed("reading " + impl.what, *impl.clock, [&](cl::Event* event) {
-    impl.queue.enqueueReadBuffer(impl.buffer, CL_TRUE, offset, bytes, target, nullptr, event);
-  });
+  const std::string doing = "reading " + impl.what;
+  const auto read = [&](std::uint32_t round) {
+    const bool in_place = isInPlace(impl, target);
+    if (!in_place) plantCanaries(target, bytes, round);
+    const double took_ns = timed(doing, *impl.clock, [&](cl::Event* event) {
+      impl.queue.enqueueReadBuffer(impl.buffer, CL_TRUE, offset, bytes, target, nullptr, event);
+    });
+    return std::pair(took_ns, !in_place && canariesLive(target, bytes, round));
+  };
+  const auto [took_ns, some_live] = read(0);
+  if (some_live && read(1).second)  // by no chance twice
+    throwLostData(impl, fmt::format("{} gave not all of its {} bytes", doing, bytes));
+  return took_ns;
 }
 
-void Buffer::fillZero() {
+void Buffer::fill(std::uint32_t word) {
   Impl& impl = allocated(impl_.get());
-  timed("clearing " + impl.what, *impl.clock, [&](cl::Event* event) {
-    impl.queue.enqueueFillBuffer(impl.buffer, cl_uchar{0}, 0, impl.bytes, nullptr, event);
-    impl.queue.finish();
-  });
+  const std::size_t words = impl.bytes / sizeof word;
+  if (fillByDevice(impl, word, words) && words * sizeof word == impl.bytes) return;
+  const std::vector<std::uint32_t> copy(words + 1, word);
+  write(copy.data(), impl.bytes);
 }
 
 std::size_t Buffer::bytes() const {

@@ -5,9 +5,11 @@
 
 #include <filesystem>
 #include <sstream>
+#include <string_view>
 #include <system_error>
 
 #include "host/core/atomic_file.h"
+#include "host/ocl/driver_text.h"
 #include "host/ocl/kernel_folder.h"
 
 namespace glintmark {
@@ -15,12 +17,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Of a line that may have no end: what stands before the word, and after.
+std::string aroundError(const std::string& line) {
+  constexpr std::size_t kMostBefore = 120;
+  const std::size_t at = line.find("error");
+  return shownText(std::string_view(line).substr(at > kMostBefore ? at - kMostBefore : 0));
+}
+
 std::string firstErrorLine(const std::string& log) {
   std::istringstream lines(log);
   std::string first;
   for (std::string line; std::getline(lines, line);) {
-    if (line.find("error") != std::string::npos) return line;
-    if (first.empty()) first = line;
+    if (line.find("error") != std::string::npos) return aroundError(line);
+    if (first.empty()) first = shownText(line);
   }
   return first.empty() ? "the driver gave no log" : first;
 }

@@ -33,9 +33,12 @@ class Buffer {
   /// Host to device; returns wall time [ns]. For wrapped memory the source must be that memory and
   /// the call is free on devices that use it in place.
   double write(const void* source, std::size_t bytes, std::size_t offset = 0);
-  /// Device to host; returns wall time [ns].
+  /// Device to host; returns wall time [ns]. Reads and writes throw Error if the
+  /// driver says that it copied and did not.
   double read(void* target, std::size_t bytes, std::size_t offset = 0) const;
-  void fillZero();
+  /// Every four bytes of it get this value.
+  void fill(std::uint32_t word);
+  void fillZero() { fill(0); }
   std::size_t bytes() const;
   bool empty() const { return !impl_; }
 

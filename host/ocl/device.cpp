@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <set>
 #include <utility>
 #include <vector>
 
 #include "host/ocl/driver_death.h"
+#include "host/ocl/driver_visit.h"
 #include "host/ocl/platforms.h"
 
 namespace glintmark {
@@ -16,7 +18,9 @@ cl::CommandQueue makeQueue(const Device::Impl& impl) {
   try {
     return {impl.context, impl.device, CL_QUEUE_PROFILING_ENABLE};
   } catch (const cl::Error& error) {
-    if (error.err() != CL_INVALID_QUEUE_PROPERTIES) throw;
+    const std::set<cl_int> refusals = {CL_INVALID_QUEUE_PROPERTIES, CL_INVALID_OPERATION,
+                                       CL_INVALID_VALUE};
+    if (!refusals.contains(error.err())) throw;
     return {impl.context, impl.device};
   }
 }
@@ -65,6 +69,7 @@ Device::Device(const std::string& selector, TimerChoice timer) : impl_(std::make
 
 void Device::open(TimerChoice timer) {
   const DeviceInfo& info = impl_->info;
+  const DriverVisit visit(fmt::format("opening '{}'", info.name), kLaunchPatience);
   const DriverDeath death;
   impl_->clock = std::make_shared<DeviceClock>(timer, info.timer_resolution_ns, info.name);
   try {
@@ -102,7 +107,13 @@ Device Device::part(unsigned compute_units) const {
 }
 
 Device::Device(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
-Device::~Device() = default;
+
+Device::~Device() {
+  if (!impl_) return;
+  const DriverVisit visit(fmt::format("closing '{}'", impl_->info.name), kLaunchPatience);
+  impl_.reset();
+}
+
 Device::Device(Device&&) noexcept = default;
 Device& Device::operator=(Device&&) noexcept = default;
 

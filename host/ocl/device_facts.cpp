@@ -2,22 +2,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <utility>
 
+#include "host/ocl/driver_text.h"
 #include "host/ocl/opencl.h"
 #include "host/ocl/platforms.h"
 
 namespace glintmark {
 namespace {
 
-// Names come padded with blanks from some drivers and with a closing NUL from others.
-std::string trimmed(const std::string& text) {
-  const auto blank = [](unsigned char c) { return std::isspace(c) || c == 0; };
-  const auto first = std::find_if_not(text.begin(), text.end(), blank);
-  const auto last = std::find_if_not(text.rbegin(), text.rend(), blank).base();
-  return first < last ? std::string(first, last) : std::string();
-}
+// No device has more of it.
+constexpr double kMostUnits = 1 << 20, kMostMhz = 1e5;
+constexpr double kMostMemoryBytes = 1e17, kMostCacheBytes = 16e9, kMostStepNs = 1e9;
 
 // A CPU wants its vectors written out; a GPU runs one pixel per lane by itself. Some CPU drivers
 // report a preferred width of 1 because they vectorise too, hence the native width beside it.
@@ -39,10 +35,13 @@ class Facts {
   Facts(cl_device_id device, std::vector<std::string>& refused)
       : device_(device), refused_(refused) {}
 
+  // 0 also for what is above `most`: drivers that do not know say -1, or fill half of the bytes.
   template <typename T>
-  T number(cl_device_info fact, const char* name) {
+  T number(cl_device_info fact, const char* name, double most = 0) {
     T value{};
-    if (clGetDeviceInfo(device_, fact, sizeof value, &value, nullptr) == CL_SUCCESS) return value;
+    if (clGetDeviceInfo(device_, fact, sizeof value, &value, nullptr) == CL_SUCCESS &&
+        (most == 0 || static_cast<double>(value) <= most))
+      return value;
     refused_.emplace_back(name);
     return T{};
   }
@@ -52,7 +51,7 @@ class Facts {
     if (clGetDeviceInfo(device_, fact, 0, nullptr, &bytes) == CL_SUCCESS) {
       std::string value(bytes, '\0');
       if (clGetDeviceInfo(device_, fact, bytes, value.data(), nullptr) == CL_SUCCESS)
-        return trimmed(value);
+        return shownText(value);
     }
     refused_.emplace_back(name);
     return "";
@@ -87,13 +86,14 @@ std::string platformText(const cl::Platform& platform, cl_platform_info fact) {
   if (clGetPlatformInfo(platform(), fact, 0, nullptr, &bytes) != CL_SUCCESS) return "";
   std::string text(bytes, '\0');
   if (clGetPlatformInfo(platform(), fact, bytes, text.data(), nullptr) != CL_SUCCESS) return "";
-  return trimmed(text);
+  return shownText(text);
 }
 
 DeviceInfo describeDevice(const PlatformInfo& platform, const cl::Device& device, int index) {
   DeviceInfo info;
   Facts facts(device(), info.refused);
 #define GM_NUMBER(type, fact) facts.number<type>(CL_DEVICE_##fact, #fact)
+#define GM_AT_MOST(type, fact, most) facts.number<type>(CL_DEVICE_##fact, #fact, most)
 #define GM_TEXT(fact) facts.text(CL_DEVICE_##fact, #fact)
   info.index = index;
   info.platform = platform.name;
@@ -104,21 +104,22 @@ DeviceInfo describeDevice(const PlatformInfo& platform, const cl::Device& device
   info.opencl_c_version = GM_TEXT(OPENCL_C_VERSION);
   info.type = typeName(GM_NUMBER(cl_device_type, TYPE));
   info.is_cpu = info.type == "CPU";
-  info.compute_units = GM_NUMBER(cl_uint, MAX_COMPUTE_UNITS);
-  info.max_clock_mhz = GM_NUMBER(cl_uint, MAX_CLOCK_FREQUENCY);
+  info.compute_units = GM_AT_MOST(cl_uint, MAX_COMPUTE_UNITS, kMostUnits);
+  info.max_clock_mhz = GM_AT_MOST(cl_uint, MAX_CLOCK_FREQUENCY, kMostMhz);
   info.preferred_float_width = GM_NUMBER(cl_uint, PREFERRED_VECTOR_WIDTH_FLOAT);
   info.max_work_group_size = facts.groupLimit();
-  info.global_mem_bytes = GM_NUMBER(cl_ulong, GLOBAL_MEM_SIZE);
-  info.max_alloc_bytes = GM_NUMBER(cl_ulong, MAX_MEM_ALLOC_SIZE);
-  info.local_mem_bytes = GM_NUMBER(cl_ulong, LOCAL_MEM_SIZE);
-  info.cache_bytes = GM_NUMBER(cl_ulong, GLOBAL_MEM_CACHE_SIZE);
-  info.timer_resolution_ns = GM_NUMBER(std::size_t, PROFILING_TIMER_RESOLUTION);
+  info.global_mem_bytes = GM_AT_MOST(cl_ulong, GLOBAL_MEM_SIZE, kMostMemoryBytes);
+  info.max_alloc_bytes = GM_AT_MOST(cl_ulong, MAX_MEM_ALLOC_SIZE, kMostMemoryBytes);
+  info.local_mem_bytes = GM_AT_MOST(cl_ulong, LOCAL_MEM_SIZE, kMostMemoryBytes);
+  info.cache_bytes = GM_AT_MOST(cl_ulong, GLOBAL_MEM_CACHE_SIZE, kMostCacheBytes);
+  info.timer_resolution_ns = GM_AT_MOST(std::size_t, PROFILING_TIMER_RESOLUTION, kMostStepNs);
   info.host_unified_memory = GM_NUMBER(cl_bool, HOST_UNIFIED_MEMORY) == CL_TRUE;
   info.correctly_rounded_divide_sqrt =
       (GM_NUMBER(cl_device_fp_config, SINGLE_FP_CONFIG) & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0;
   info.default_lanes = lanesFor(info.is_cpu, info.preferred_float_width,
                                 GM_NUMBER(cl_uint, NATIVE_VECTOR_WIDTH_FLOAT));
 #undef GM_NUMBER
+#undef GM_AT_MOST
 #undef GM_TEXT
   if (facts.denies(CL_DEVICE_AVAILABLE)) info.problem = "its driver says that it is not available";
   if (facts.denies(CL_DEVICE_COMPILER_AVAILABLE)) info.problem = "its driver has no compiler";

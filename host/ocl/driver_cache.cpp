@@ -53,7 +53,9 @@ std::string faultOf(const Wanted& wanted) {
 // Removed by the process that made it, not by those that it forks.
 class TemporaryCache {
  public:
-  ~TemporaryCache() {
+  ~TemporaryCache() { remove(); }
+
+  void remove() {
     std::error_code error;
     if (!folder_.empty() && owner_ == getpid()) fs::remove_all(folder_, error);
   }
@@ -71,6 +73,11 @@ class TemporaryCache {
   pid_t owner_ = 0;
 };
 
+TemporaryCache& temporaryCache() {
+  static TemporaryCache cache;
+  return cache;
+}
+
 }  // namespace
 
 std::string folderWithoutBlanks() {
@@ -82,19 +89,21 @@ std::string folderWithoutBlanks() {
 }
 
 std::string prepareDriverCache() try {
-  static TemporaryCache cache;
   static bool done = false;
   if (done) return "";
   done = true;
+  setenv("PATH", "/usr/local/bin:/usr/bin:/bin",
+         0);  // without any, PoCL finds no linker and aborts
   const Wanted wanted = poclFolder();
   const std::string fault = faultOf(wanted);
   if (fault.empty()) return "";
-  const std::string made = cache.make();
+  const std::string made = temporaryCache().make();
   if (made.empty())
     return fmt::format(
         "PoCL's cache '{}' {}, nor is there a temporary folder: set POCL_CACHE_DIR to "
         "a folder that can be written",
         wanted.folder.string(), fault);
+  std::at_quick_exit([] { temporaryCache().remove(); });
   setenv("POCL_CACHE_DIR", made.c_str(), 1);
   return fmt::format(
       "PoCL's cache '{}' {}, a temporary one is used; POCL_CACHE_DIR chooses another",

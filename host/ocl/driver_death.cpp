@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "host/core/error.h"
+#include "host/core/last_words.h"
 
 namespace glintmark {
 namespace {
@@ -12,7 +13,8 @@ namespace {
 // PoCL aborts where hwloc sees no memory: in a root without /sys, or under `ulimit -v`.
 constexpr std::string_view kSentence =
     "glintmark: an OpenCL driver ended the program while its devices were opened; PoCL does so "
-    "without /sys or under a limit of memory, and OCL_ICD_VENDORS=FILE chooses one driver alone\n";
+    "without /sys, under a limit of memory or by a POCL_ variable out of range, and "
+    "OCL_ICD_VENDORS=FILE chooses one driver alone\n";
 
 volatile std::sig_atomic_t living = 0;
 
@@ -25,6 +27,7 @@ extern "C" void sayThatADriverDied(int number) {
     return;
   }
   [[maybe_unused]] const auto written = write(STDERR_FILENO, kSentence.data(), kSentence.size());
+  leaveExitCode(kExitNoDevice);
   _exit(kExitNoDevice);
 }
 

@@ -1,9 +1,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
+#include <optional>
+#include <thread>
 
 #include "host/core/stopwatch.h"
 #include "host/core/trace.h"
+#include "host/ocl/driver_visit.h"
 #include "host/ocl/opencl.h"
 
 namespace glintmark {
@@ -12,6 +16,9 @@ namespace {
 // PoCL compiles a kernel at its first enqueue for each local size, once more for grids of 2^16
 // work-items and more (it uses 16-bit indices below).
 constexpr std::size_t kSmallGridItems = std::size_t{1} << 16;
+
+// How long an event may say that its launch is not over after the driver said that it is.
+constexpr double kEndPatience_ns = 10e9;
 
 void setArgs(Kernel::Impl& impl, std::span<const KernelArg> args) {
   const auto wanted = impl.kernel.getInfo<CL_KERNEL_NUM_ARGS>();
@@ -56,6 +63,36 @@ bool isTooLargeARange(cl_int code) {
   return code == CL_INVALID_GLOBAL_WORK_SIZE;
 }
 
+std::optional<cl_int> statusOf(const cl::Event& event) {
+  cl_int status = CL_COMPLETE;
+  if (clGetEventInfo(event(), CL_EVENT_COMMAND_EXECUTION_STATUS, sizeof status, &status, nullptr) !=
+      CL_SUCCESS)
+    return std::nullopt;
+  return status;
+}
+
+// Waits for the launch, and does not take the driver's word that it is over: some come back at
+// once, others say that all is well with a launch that failed.
+void awaitLaunch(Kernel::Impl& impl, const cl::Event& event) {
+  event.wait();
+  std::optional<cl_int> status = statusOf(event);
+  if (status && *status > CL_COMPLETE) {
+    impl.queue.finish();
+    for (const Stopwatch watch; (status = statusOf(event)) && *status > CL_COMPLETE;) {
+      if (watch.elapsedNs() > kEndPatience_ns)
+        throw Error(fmt::format("kernel '{}' does not end: clWaitForEvents and clFinish came back, "
+                                "but its event says after {:g} s that it is {}",
+                                impl.name, kEndPatience_ns * 1e-9,
+                                *status == CL_RUNNING ? "running" : "queued"),
+                    kExitNoDevice);
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+  if (status && *status < 0)
+    throw Error(fmt::format("kernel '{}' was launched, but failed with {}", impl.name,
+                            openClErrorName(*status)));
+}
+
 // Enqueues and waits; `local_size` divides `global_size`, the number of work-items from `first` on.
 LaunchTimes launchOnce(Kernel::Impl& impl, std::size_t first, std::size_t global_size,
                        std::size_t local_size) {
@@ -63,13 +100,20 @@ LaunchTimes launchOnce(Kernel::Impl& impl, std::size_t first, std::size_t global
   const std::pair<std::size_t, bool> kind = {local_size, global_size < kSmallGridItems};
   times.first_enqueue = !impl.launched.contains(kind);
   const TraceScope scope("launch", impl.name);
+  const std::string doing = fmt::format("launching kernel '{}'", impl.name);
+  std::optional<DriverVisit> first_visit;
+  std::optional<ShortVisit> visit;
+  if (times.first_enqueue)
+    first_visit.emplace(doing, kLaunchPatience);
+  else
+    visit.emplace(doing);
   const std::int64_t trace_begin_ns = isTracing() ? traceNowNs() : 0;
   const Stopwatch watch;
   cl::Event event;
   impl.queue.enqueueNDRangeKernel(impl.kernel, first > 0 ? cl::NDRange(first) : cl::NullRange,
                                   cl::NDRange(global_size), cl::NDRange(local_size), nullptr,
                                   &event);
-  event.wait();
+  awaitLaunch(impl, event);
   times.wall_ns = watch.elapsedNs();
   times.event_ns = impl.clock->launchNs(eventTimes(event), times.wall_ns);
   if (isTracing()) traceEvent("kernel", impl.name, event, trace_begin_ns, *impl.clock);

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "host/core/error.h"
+#include "host/core/last_words.h"
 #include "host/ocl/compute.h"
 #include "host/ocl/device.h"
 #include "host/ocl/device_clock.h"
@@ -53,6 +54,9 @@ struct Device::Impl {
 struct Buffer::Impl {
   ~Impl() {
     if (ledger) ledger->remove(purpose, bytes);
+    const DriverCall call("releasing " + what);
+    buffer = cl::Buffer();
+    queue = cl::CommandQueue();
   }
   std::shared_ptr<void> memory{};  // what `buffer` uses in place, where that is ours
   cl::Buffer buffer;
@@ -60,11 +64,17 @@ struct Buffer::Impl {
   std::shared_ptr<DeviceClock> clock{};
   std::size_t bytes = 0;
   BufferPurpose purpose = BufferPurpose::kProbe;
-  std::string what;                      // as messages call it
+  std::string what, device_name{};       // as messages call them
+  const void* host = nullptr;            // what `buffer` uses in place
   std::shared_ptr<BufferLedger> ledger;  // set once the buffer is there
 };
 
 struct Kernel::Impl {
+  ~Impl() {
+    const DriverCall call("releasing kernel " + name);
+    kernel = cl::Kernel();
+    queue = cl::CommandQueue();
+  }
   cl::Kernel kernel;
   cl::CommandQueue queue;
   std::string name;
@@ -77,6 +87,12 @@ struct Kernel::Impl {
 
 /// A program for one device; shared by all Program handles that the cache gave out.
 struct BuiltProgram {
+  ~BuiltProgram() {
+    const DriverCall call("releasing " + file);
+    kernels.clear();
+    program = cl::Program();
+    queue = cl::CommandQueue();
+  }
   cl::Program program;
   cl::Device device;
   cl::CommandQueue queue;

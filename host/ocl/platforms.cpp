@@ -9,10 +9,13 @@
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
+#include <system_error>
 #include <utility>
 
 #include "host/core/atomic_file.h"
 #include "host/ocl/driver_death.h"
+#include "host/ocl/driver_text.h"
+#include "host/ocl/driver_visit.h"
 
 namespace glintmark {
 namespace {
@@ -59,6 +62,13 @@ std::vector<cl::Platform> allPlatforms(std::string& problem) {
   return platforms;
 }
 
+// PoCL has those alone that this variable names.
+std::string whyNoDevices() {
+  const char* chosen = std::getenv("POCL_DEVICES");
+  return chosen ? fmt::format("it has no devices, POCL_DEVICES is '{}'", shownText(chosen))
+                : "it has no devices";
+}
+
 std::vector<cl::Device> devicesOf(const cl::Platform& platform, std::string& problem) {
   cl_uint count = 0;
   cl_int status = clGetDeviceIDs(platform(), CL_DEVICE_TYPE_ALL, 0, nullptr, &count);
@@ -66,7 +76,7 @@ std::vector<cl::Device> devicesOf(const cl::Platform& platform, std::string& pro
   if (!ids.empty())
     status = clGetDeviceIDs(platform(), CL_DEVICE_TYPE_ALL, count, ids.data(), nullptr);
   if (status == CL_DEVICE_NOT_FOUND || (status == CL_SUCCESS && count == 0))
-    problem = "it has no devices";
+    problem = whyNoDevices();
   else if (status != CL_SUCCESS)
     problem = fmt::format("its driver fails with {}", openClErrorName(status));
   if (!problem.empty()) return {};
@@ -136,16 +146,24 @@ std::vector<std::string> brokenDrivers() {
   const fs::path folder = chosen && *chosen ? chosen : kVendorFolder;
   std::vector<std::string> broken;
   std::error_code error;
+  if (fs::is_regular_file(folder, error)) {  // one driver alone
+    if (const auto fault = loadFault(folder))
+      broken.push_back(shownText(fmt::format("{}: {}", folder.string(), *fault)));
+    return broken;
+  }
   for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
     if (it->path().extension() != ".icd") continue;
     if (const auto fault = loadFault(it->path()))
-      broken.push_back(fmt::format("{}: {}", it->path().string(), *fault));
+      broken.push_back(shownText(fmt::format("{}: {}", it->path().string(), *fault)));
   }
   std::ranges::sort(broken);
+  if (error && error != std::errc::no_such_file_or_directory)
+    broken.push_back(fmt::format("{}: {}", folder.string(), error.message()));
   return broken;
 }
 
 FoundPlatforms findPlatforms() {
+  const DriverVisit visit("looking for OpenCL devices", kLaunchPatience);
   const DriverDeath death;
   FoundPlatforms found;
   for (const cl::Platform& platform : allPlatforms(found.list.problem)) {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "host/ocl/compiler_watch.h"
+#include "host/ocl/driver_visit.h"
 #include "host/ocl/opencl.h"
 
 namespace glintmark {
@@ -48,7 +48,8 @@ Kernel Program::kernel(const std::string& name) const {
   BuiltProgram& built = *fromCache(impl_).built;
   std::shared_ptr<Kernel::Impl>& kernel = built.kernels[name];
   if (kernel) return Kernel(kernel);
-  const CompilerWatch compiler_watch(fmt::format("kernel '{}' of {}", name, built.file));
+  const DriverVisit visit(fmt::format("compiling kernel '{}' of {}", name, built.file),
+                          kCompilerPatience);
   try {
     auto made = std::make_shared<Kernel::Impl>();
     made->kernel = cl::Kernel(built.program, name.c_str());

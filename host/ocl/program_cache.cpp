@@ -11,7 +11,7 @@
 #include "host/core/stopwatch.h"
 #include "host/core/trace.h"
 #include "host/ocl/build_failure.h"
-#include "host/ocl/compiler_watch.h"
+#include "host/ocl/driver_visit.h"
 #include "host/ocl/kernel_folder.h"
 #include "host/ocl/opencl.h"
 
@@ -26,12 +26,38 @@ std::string sourceText(const fs::path& folder, const std::string& file, std::uin
   return fmt::format("#line 1 \"{}\"  // {:016x}\n{}", file, hash, readFile(folder / file));
 }
 
+// Drivers may say that all is well with a program that is not built. The bindings ask for the log
+// of a good build as well, and fail with those that refuse it.
+cl_int buildProgram(const cl::Program& program, const cl::Device& device,
+                    const std::string& options) {
+  const cl_device_id id = device();
+  const cl_int status = clBuildProgram(program(), 1, &id, options.c_str(), nullptr, nullptr);
+  if (status != CL_SUCCESS) return status;
+  cl_build_status built = CL_BUILD_SUCCESS;
+  const bool known = clGetProgramBuildInfo(program(), id, CL_PROGRAM_BUILD_STATUS, sizeof built,
+                                           &built, nullptr) == CL_SUCCESS;
+  return known && built != CL_BUILD_SUCCESS ? CL_BUILD_PROGRAM_FAILURE : CL_SUCCESS;
+}
+
+// Empty if the driver refuses it.
+std::string buildLog(const cl::Program& program, const cl::Device& device) {
+  std::size_t bytes = 0;
+  if (clGetProgramBuildInfo(program(), device(), CL_PROGRAM_BUILD_LOG, 0, nullptr, &bytes) !=
+      CL_SUCCESS)
+    return "";
+  std::string log(bytes, '\0');
+  if (clGetProgramBuildInfo(program(), device(), CL_PROGRAM_BUILD_LOG, bytes, log.data(),
+                            nullptr) != CL_SUCCESS)
+    return "";
+  return log;
+}
+
 std::optional<cl::Program> buildFromBinary(const Device::Impl& device, const std::string& binary,
                                            const std::string& options) {
   try {
     const cl::Program::Binaries binaries = {{binary.begin(), binary.end()}};
     cl::Program program(device.context, {device.device}, binaries);
-    program.build({device.device}, options.c_str());
+    if (buildProgram(program, device.device, options) != CL_SUCCESS) return std::nullopt;
     return program;
   } catch (const cl::Error&) {
     return std::nullopt;  // stale or damaged: the caller builds from source
@@ -64,16 +90,22 @@ struct ProgramCache::Impl {
     device.clock = opened.impl().clock;
   }
 
+  ~Impl() {
+    const DriverCall call("releasing programs");
+    memory.clear();
+    device = Device::Impl{};
+  }
+
   cl::Program buildFromSource(const std::string& file, const std::string& options,
                               std::uint64_t hash) {
     try {
       cl::Program program(device.context, sourceText(folder, file, hash));
-      program.build({device.device}, options.c_str());
+      const cl_int status = buildProgram(program, device.device, options);
+      if (status == CL_BUILD_PROGRAM_FAILURE)
+        throw reportFailedBuild(
+            {file, folder, options, buildLog(program, device.device), info.name});
+      if (status != CL_SUCCESS) throw cl::Error(status, "clBuildProgram");
       return program;
-    } catch (const cl::BuildError& error) {
-      const auto log = error.getBuildLog();
-      throw reportFailedBuild(
-          {file, folder, options, log.empty() ? std::string() : log[0].second, info.name});
     } catch (const cl::Error& error) {
       throw openClError(fmt::format("building kernel file '{}'", file), error);
     }
@@ -105,7 +137,7 @@ Program ProgramCache::Impl::build(const std::string& file, const std::string& ow
   if (program->built) return Program(program);
 
   const TraceScope scope("build", file);
-  const CompilerWatch compiler_watch(file);
+  const DriverVisit visit("compiling " + file, kCompilerPatience);
   const IncludePath include(folder);
   options += " -I " + include.path();
   std::optional<cl::Program> built;

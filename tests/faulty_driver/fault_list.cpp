@@ -38,6 +38,13 @@ std::optional<std::string> valueOf(const std::string& name) {
   return it == faults().end() ? std::nullopt : std::optional(it->second);
 }
 
+std::optional<std::string> valueOfPart(const std::string& name, const std::string& part) {
+  const auto [begin, end] = faults().equal_range(name);
+  for (auto it = begin; it != end; ++it)
+    if (it->second.starts_with(part + ":")) return it->second.substr(part.size() + 1);
+  return std::nullopt;
+}
+
 unsigned long long numberOf(const std::string& name) {
   const auto value = valueOf(name);
   return value ? std::strtoull(value->c_str(), nullptr, 10) : 0;

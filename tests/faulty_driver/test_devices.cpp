@@ -9,18 +9,14 @@
 namespace glintmark {
 namespace {
 
-std::vector<std::string> render(const std::string& file) {
-  return {"render", "glitter", "--quiet", "--size", "96x64", "-o", file};
-}
-
 class Limits : public testing::TestWithParam<const char*> {};
 
 // Bands and groups differ, the arithmetic does not.
 TEST_P(Limits, ThePictureIsTheSame) {
   const TempFolder folder;
-  const ProcessResult sane = runGlintmark(render(folder / "sane.exr"));
+  const ProcessResult sane = runGlintmark(renderGlitter(folder / "sane.exr"));
   ASSERT_EQ(sane.exit_code, 0) << sane.err;
-  const ProcessResult result = runFaulty(render(folder / "faulty.exr"), GetParam());
+  const ProcessResult result = runFaulty(renderGlitter(folder / "faulty.exr"), GetParam());
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.err, "");
   EXPECT_TRUE(samePixels(folder / "faulty.exr", folder / "sane.exr"));
@@ -142,7 +138,7 @@ TEST(Builds, ACompilerThatTakesLongIsSaid) {
 
 TEST(Launches, AnErrorNamesTheKernel) {
   const TempFolder folder;
-  const ProcessResult result = runFaulty(render(folder / "o.exr"), "resources=shade");
+  const ProcessResult result = runFaulty(renderGlitter(folder / "o.exr"), "resources=shade");
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_NE(result.err.find("kernel 'shade'"), std::string::npos) << result.err;
   EXPECT_NE(result.err.find("CL_OUT_OF_RESOURCES"), std::string::npos) << result.err;

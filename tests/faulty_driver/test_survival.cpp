@@ -61,7 +61,8 @@ INSTANTIATE_TEST_SUITE_P(All, Survival,
                                          Fault{"stall=probeTypeSizes",
                                                "gave no answer within 20 s"},
                                          Fault{"exit=probeTypeSizes", "ended with exit code 7"},
-                                         Fault{"resources=probeTypeSizes", "CL_OUT_OF_RESOURCES"}),
+                                         Fault{"resources=probeTypeSizes", "CL_OUT_OF_RESOURCES"},
+                                         Fault{"skip=probeTypeSizes", ""}),
                          [](const auto& tested) {
                            const std::string faults = tested.param.faults;
                            return faults.substr(0, faults.find('='));
