@@ -109,8 +109,9 @@ TEST(Bench, InterruptKeepsRecordsAndResumeCompletesThem) {
   process.interrupt();
   const ProcessResult interrupted = process.wait();
   EXPECT_EQ(interrupted.exit_code, 130) << interrupted.err << interrupted.out;
-  EXPECT_TRUE(
-      interrupted.err.starts_with("glintmark: interrupted; 1 of 2 cases of table zk16 are kept"))
+  // Not at the start: a compiler that was at work may say that it failed.
+  EXPECT_NE(interrupted.err.find("glintmark: interrupted; 1 of 2 cases of table zk16 are kept"),
+            std::string::npos)
       << interrupted.err;
   EXPECT_NE(interrupted.err.find("--resume"), std::string::npos) << interrupted.err;
   EXPECT_FALSE(std::filesystem::exists(folder / "r/results.json"));
