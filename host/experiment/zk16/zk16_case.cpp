@@ -55,6 +55,7 @@ PrepareSamples measurePrepare(FrameRenderer& renderer, const Repetitions& reps) 
     FrameTimes times = renderer.prepare();
     samples.raster_ns.push_back(times.raster_ns);
     samples.upload_ns.push_back(times.upload_ns);
+    renderer.shade();  // what no launch has written is an error of the driver
     renderer.readRadiance(&times);
     samples.readback_ns.push_back(times.readback_ns);
   }
