@@ -40,5 +40,8 @@ Folders in place of those that are installed.
 .TP
 .B GLINTMARK_CACHE_DIR
 Where compiled programs and fitted mixtures are kept.
+.TP
+.B GLINTMARK_DRIVER_S
+Seconds after which a driver that gives no answer is taken to hang, in place of 600 (compilers: 3600).
 ")
 file(WRITE ${OUTPUT} "${page}")

@@ -83,6 +83,11 @@ AtomicFile::AtomicFile(const fs::path& target) : target_(target) {
                     "name",
                     target.string()));
   }
+  // /dev/stdout is a link to what may be a file: it would be replaced for everybody.
+  const std::string name = target.string();
+  if ((name.starts_with("/dev/") || name.starts_with("/proc/")) &&
+      fs::is_symlink(fs::symlink_status(target, ignored)))
+    throw Error(fmt::format("cannot write {}: it stands for another file; name that one", name));
   requireNoInput(target);
   const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
   if (!fs::is_directory(folder, ignored)) {

@@ -46,6 +46,10 @@ void forgetLastWords() {
   shared->call[0] = shared->hang[0] = '\0';
 }
 
+void unshareLastWords() {
+  shared = nullptr;
+}
+
 void leaveExitCode(int code) {
   if (shared != nullptr) shared->exit_code = code;
 }

@@ -11,6 +11,8 @@ namespace glintmark {
 bool shareLastWords();
 /// Before the next child.
 void forgetLastWords();
+/// There is no child after all: nobody hears this process.
+void unshareLastWords();
 
 /// This process is done and ends with `code`. May be called in a signal handler.
 void leaveExitCode(int code);

@@ -47,21 +47,18 @@ std::string hashOf(const fs::path& path, FileRole role = FileRole::kInput) {
 }  // namespace
 
 std::string hashInputs(const CommonOptions& common, const std::vector<std::string>& scenes) {
-  std::string hashes = hashOf(kernelFolder()) + hashOf(sceneFolder());
+  // What is read of these folders says so itself; outputs may lie beside it.
+  std::string hashes =
+      hashOf(kernelFolder(), FileRole::kOwn) + hashOf(sceneFolder(), FileRole::kOwn);
   try {
-    hashes += hashOf(findDataFile("multiscatter.json").parent_path());
-  } catch (const OverwriteError&) {
-    throw;
+    hashes += hashOf(findDataFile("multiscatter.json").parent_path(), FileRole::kOwn);
   } catch (const Error&) {
     hashes += "no tables\n";
   }
   for (const std::string& scene : scenes)
     if (fs::path(scene).extension() == ".toml") hashes += hashOf(scene);
   if (!common.mesh_file.empty()) hashes += hashOf(common.mesh_file);
-  if (!common.asset_folder.empty()) {
-    // Where assets lie results may lie too; what is read of them says so itself.
-    hashes += hashOf(common.asset_folder, FileRole::kOwn);
-  }
+  if (!common.asset_folder.empty()) hashes += hashOf(common.asset_folder, FileRole::kOwn);
   return fmt::format("{:016x}", fnv1a(hashes));
 }
 

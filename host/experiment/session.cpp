@@ -116,7 +116,7 @@ Scene openScene(const CommonOptions& common, const std::string& name,
 Scene openScene(const CommonOptions& common, const std::string& name, const ShadingOptions& shading,
                 bool truth) {
   return openScene(common, name, [&](const Scene& scene) {
-    requireRoomForMaps(scene, shading, truth, [&] { return openDevice(common).info(); });
+    requireRoomForMaps(scene, shading, truth, [&] { return openUntried(common).info(); });
   });
 }
 

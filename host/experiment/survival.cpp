@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <array>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
@@ -40,6 +41,12 @@ bool isLostName(const std::string& name) {
   return std::ranges::find(lost_cases, name, &LostCase::name) != lost_cases.end();
 }
 
+// Did the process end itself, or did somebody else send it a signal?
+bool isOwnDoing(int status) {
+  constexpr std::array kFaults = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGTRAP, SIGSYS};
+  return !WIFSIGNALED(status) || std::ranges::find(kFaults, WTERMSIG(status)) != kFaults.end();
+}
+
 // Whatever the child says of itself; what ended it otherwise it could not say.
 int lastExitCode(int status) {
   if (const std::optional<int> code = leftExitCode()) return *code;
@@ -50,7 +57,7 @@ int lastExitCode(int status) {
     fmt::print(stderr, "glintmark: the OpenCL driver was {}\n", hang);
     return kExitNoDevice;
   }
-  const std::string call = killed ? "" : callUnderWay();
+  const std::string call = isOwnDoing(status) ? callUnderWay() : "";
   if (!call.empty()) {
     fmt::print(stderr, "glintmark: an OpenCL driver ended the program while {}: its process {}\n",
                call, howItEnded(status));
@@ -76,6 +83,7 @@ int runSurviving(bool quiet, const std::function<int(bool first)>& measure) {
     lost_seconds = lost_cases.empty() ? 0 : watch.elapsedNs() * 1e-9;
     forgetLastWords();
     const pid_t child = startChild();
+    if (child < 0) unshareLastWords();
     if (child <= 0) return measure(lost_cases.empty());
     const int status = awaitChild(child);
     if (leftExitCode() || *shared_name == '\0' || wasAskedToEnd(status))
@@ -98,6 +106,7 @@ int runWatched(const std::function<int()>& work) {
   if (&allRanks() != &aloneRanks() || !shareLastWords()) return work();
   forgetLastWords();
   const pid_t child = startChild();
+  if (child < 0) unshareLastWords();
   return child <= 0 ? work() : lastExitCode(awaitChild(child));
 }
 

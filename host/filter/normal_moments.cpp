@@ -35,6 +35,11 @@ Image moments(const NormalMap& map, int channels, const Channels& write) {
   return image;
 }
 
+// Floats of the moments that are so many float4.
+constexpr int channelsOf(int vectors) {
+  return vectors == 1 ? 3 : 5;
+}
+
 bool isPowerOfTwo(int size) {
   return std::has_single_bit(static_cast<unsigned>(size));
 }
@@ -61,15 +66,13 @@ Image meansOfSurface(const NormalMap& map, int channels, const Channels& write) 
 // The finest level is that of the map's texels, coarser ones are means of what lies between them
 // too, if wanted.
 template <class Channels>
-MipTexels mipMoments(const NormalMap& map, bool between_texels, int channels, int vectors,
+MipTexels mipMoments(const NormalMap& map, bool between_texels, int vectors,
                      const Channels& write) {
   checkNormalMap(map);
+  const int channels = channelsOf(vectors);
   const bool finer = between_texels && canInterpolate(map);
   const bool in_rows = isPowerOfTwo(map.width_px) && isPowerOfTwo(map.height_px);
-  // The packed texels, and of the surface its means and what they are made of.
-  const std::size_t fine_floats = !finer ? 0 : in_rows ? channels : 4 * (channels + 3);
-  requireMemory(map.normals.size() * sizeof(float) * (4 * vectors + fine_floats) * 4 / 3,
-                chainOf(map));
+  requireMemory(momentBytes(map.width_px, map.height_px, vectors, finer), chainOf(map));
   MipTexels chain = makeMipTexels(map.width_px, map.height_px, vectors);
   writeMoments(map, &chain.texels.data()->x, std::size_t{4} * static_cast<std::size_t>(vectors),
                write);
@@ -88,13 +91,22 @@ MipTexels mipMoments(const NormalMap& map, bool between_texels, int channels, in
 
 }  // namespace
 
+std::uint64_t momentBytes(int width_px, int height_px, int vectors, bool between) {
+  const bool in_rows = isPowerOfTwo(width_px) && isPowerOfTwo(height_px);
+  // The packed texels, and of the surface its means and what they are made of.
+  const int channels = channelsOf(vectors);
+  const int floats = 4 * vectors + (!between ? 0 : in_rows ? channels : 4 * (channels + 3));
+  return static_cast<std::uint64_t>(width_px) * static_cast<std::uint64_t>(height_px) *
+         sizeof(float) * static_cast<std::uint64_t>(floats) * 4 / 3;
+}
+
 MipTexels meanNormals(const NormalMap& map, bool between) {
-  return mipMoments(map, between, 3, 1,
+  return mipMoments(map, between, 1,
                     [](const glm::vec3& n, float* to) { to[0] = n.x, to[1] = n.y, to[2] = n.z; });
 }
 
 MipTexels leanMoments(const NormalMap& map) {
-  return mipMoments(map, true, 5, 2, [](const glm::vec3& n, float* to) {
+  return mipMoments(map, true, 2, [](const glm::vec3& n, float* to) {
     glm::vec2 slope = glm::vec2(n) / n.z;
     slope *= std::min(1.0f, kMaxLeanSlope / std::max(glm::length(slope), 1e-20f));
     to[0] = slope.x, to[1] = slope.y, to[2] = slope.x * slope.x, to[3] = slope.y * slope.y;

@@ -2,10 +2,16 @@
 // the map's texels, between which lookups interpolate; coarser ones are means over the surface that
 // this makes, by samples between the texels too (interpolated_normals.h).
 #pragma once
+#include <cstdint>
+
 #include "host/filter/mip_texels.h"
 #include "host/filter/normal_map.h"
 
 namespace glintmark {
+
+/// What the most that making them holds takes [bytes], the moments included, the map not.
+/// `vectors`: 1 for mean normals, 2 for LEAN's moments.
+std::uint64_t momentBytes(int width_px, int height_px, int vectors, bool between);
 
 /// One float4 a texel: mean normal (x, y, z), not made unit, and 0. Its direction is the plain
 /// mip-mapped normal, its length r the evenness of the normals that Toksvig's roughness comes from:

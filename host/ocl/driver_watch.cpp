@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <utility>
 
@@ -20,7 +21,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using std::chrono::seconds;
 
-constexpr std::chrono::milliseconds kLook{200};
+constexpr std::chrono::milliseconds kLook{200}, kMostBetweenLooks{1000};
 
 struct Watched {
   std::mutex mutex;
@@ -34,27 +35,30 @@ Watched& watched() {
   return all;
 }
 
-// Under 0 if the variable is not there or no number of seconds.
-double chosenEnd_s() {
+// Nothing if the variable is not there. Throws Error if it is no number of seconds above 0.
+std::optional<double> chosenEnd_s() {
   const char* text = std::getenv("GLINTMARK_DRIVER_S");
+  if (!text || !*text) return std::nullopt;
   char* end = nullptr;
-  const double value = text && *text ? std::strtod(text, &end) : -1;
-  return end && *end == '\0' ? value : -1;
+  const double value = std::strtod(text, &end);
+  if (*end != '\0' || !(value > 0))
+    throw Error(fmt::format("GLINTMARK_DRIVER_S is '{}', expected seconds above 0", text));
+  return value;
 }
 
-void endHung(const WatchedCall& call, Clock::duration took) {
-  const auto took_s = std::chrono::duration_cast<seconds>(took).count();
-  leaveHang(fmt::format("{} and gave no answer within {} s", call.what, took_s));
-  if (!hasHearer())
-    fmt::print(stderr, "glintmark: the OpenCL driver was {} and gave no answer within {} s\n",
-               call.what, took_s);
+void endHung(const WatchedCall& call) {
+  const std::string what =
+      fmt::format("{} and gave no answer within {} s; GLINTMARK_DRIVER_S sets other seconds",
+                  call.what, call.patience.end.count());
+  leaveHang(what);
+  if (!hasHearer()) fmt::print(stderr, "glintmark: the OpenCL driver was {}\n", what);
   _exit(kExitNoDevice);
 }
 
-void look(WatchedCall& call, Clock::time_point now) {
-  const auto took = now - call.begin;
-  if (took >= call.patience.end) endHung(call, took);
-  if (took < call.next_note) return;
+void look(WatchedCall& call, Clock::duration since_last_look) {
+  call.took += since_last_look;
+  if (call.took >= call.patience.end) endHung(call);
+  if (call.took < call.next_note) return;
   if (!Progress::areSilent())
     fmt::print(stderr, "note: the driver has been {} for {} s and is not done\n", call.what,
                call.next_note.count());
@@ -62,24 +66,27 @@ void look(WatchedCall& call, Clock::time_point now) {
 }
 
 [[noreturn]] void lookOn(Watched& all) {
-  while (true) {
+  for (Clock::time_point last = Clock::now();;) {
     std::this_thread::sleep_for(kLook);
     const std::lock_guard lock(all.mutex);
     const auto now = Clock::now();
-    for (WatchedCall& call : all.calls) look(call, now);
+    // A process that was stopped does not await anything meanwhile.
+    const auto step = std::min<Clock::duration>(now - last, kMostBetweenLooks);
+    last = now;
+    for (WatchedCall& call : all.calls) look(call, step);
   }
 }
 
 }  // namespace
 
 DriverWatch::DriverWatch(std::string what, Patience patience) {
-  static const double chosen_s = chosenEnd_s();
-  if (chosen_s > 0)
-    patience.end = seconds(std::max<long long>(1, static_cast<long long>(std::min(chosen_s, 1e9))));
+  static const std::optional<double> chosen_s = chosenEnd_s();
+  if (chosen_s)
+    patience.end =
+        seconds(std::max<long long>(1, static_cast<long long>(std::min(*chosen_s, 1e9))));
   Watched& all = watched();
   const std::lock_guard lock(all.mutex);
-  call_ = all.calls.insert(all.calls.end(),
-                           WatchedCall{std::move(what), patience, Clock::now(), patience.note});
+  call_ = all.calls.insert(all.calls.end(), WatchedCall{std::move(what), patience, patience.note});
   if (std::exchange(all.thread_of, getpid()) != getpid())
     std::thread([&all] { lookOn(all); }).detach();
 }

@@ -19,8 +19,8 @@ inline constexpr Patience kLaunchPatience = {std::chrono::seconds(30), std::chro
 struct WatchedCall {
   std::string what;
   Patience patience = kLaunchPatience;
-  std::chrono::steady_clock::time_point begin{};
   std::chrono::seconds next_note{};
+  std::chrono::steady_clock::duration took{};
 };
 
 /// As long as it lives, `what` ("compiling shade.cl") is awaited: notes on stderr unless these are

@@ -63,20 +63,22 @@ std::vector<cl::Platform> allPlatforms(std::string& problem) {
 }
 
 // PoCL has those alone that this variable names.
-std::string whyNoDevices() {
+std::string whyNoDevices(const std::string& platform) {
   const char* chosen = std::getenv("POCL_DEVICES");
-  return chosen ? fmt::format("it has no devices, POCL_DEVICES is '{}'", shownText(chosen))
-                : "it has no devices";
+  return chosen && platform.find("Portable Computing Language") != std::string::npos
+             ? fmt::format("it has no devices, POCL_DEVICES is '{}'", shownText(chosen))
+             : "it has no devices";
 }
 
-std::vector<cl::Device> devicesOf(const cl::Platform& platform, std::string& problem) {
+std::vector<cl::Device> devicesOf(const cl::Platform& platform, const std::string& name,
+                                  std::string& problem) {
   cl_uint count = 0;
   cl_int status = clGetDeviceIDs(platform(), CL_DEVICE_TYPE_ALL, 0, nullptr, &count);
   std::vector<cl_device_id> ids(status == CL_SUCCESS ? count : 0);
   if (!ids.empty())
     status = clGetDeviceIDs(platform(), CL_DEVICE_TYPE_ALL, count, ids.data(), nullptr);
   if (status == CL_DEVICE_NOT_FOUND || (status == CL_SUCCESS && count == 0))
-    problem = whyNoDevices();
+    problem = whyNoDevices(name);
   else if (status != CL_SUCCESS)
     problem = fmt::format("its driver fails with {}", openClErrorName(status));
   if (!problem.empty()) return {};
@@ -172,7 +174,7 @@ FoundPlatforms findPlatforms() {
     info.version = platformText(platform, CL_PLATFORM_VERSION);
     info.vendor = platformText(platform, CL_PLATFORM_VENDOR);
     if (info.name.empty()) info.name = "(no name)";
-    for (const cl::Device& device : devicesOf(platform, info.problem)) {
+    for (const cl::Device& device : devicesOf(platform, info.name, info.problem)) {
       const int index = static_cast<int>(found.devices.size());
       info.devices.push_back(describeDevice(info, device, index));
       found.devices.push_back({platform, device, info.devices.back()});

@@ -50,6 +50,11 @@ TEST(TerminalText, WideTablesBecomeSeveralWithTheFirstColumnInEach) {
             "                9.55\n");
 }
 
+TEST(TerminalText, ScoresStayOneLineForWhatLooksForThem) {
+  const std::string score = "score: zk16 shading_event_ms 0.09 ms 1 cases\n";
+  EXPECT_EQ(fitted(score, 20), score);
+}
+
 // Blanks within names, words below no header, and a header longer than its names.
 TEST(TerminalText, TheFirstColumnMayHoldWords) {
   TextTable table({"metric", "all pixels", "not black"});

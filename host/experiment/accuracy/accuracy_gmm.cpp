@@ -71,11 +71,7 @@ std::vector<AccuracySetting> gmmSettingsOf(const BenchRun& run,
                         return setting.name == "method=anisotropic";
                       }) > 0 &&
         !run.session().common.quiet)
-      fmt::print(
-          stderr,
-          "note: scene {} has more lobes than the {} that method anisotropic takes, which is "
-          "left out\n",
-          name, kMostAnisotropicLobes);
+      fmt::print(stderr, "{}\n", withoutAnisotropicNote(name));
   }
   return settings;
 }

@@ -58,11 +58,7 @@ MethodsByScene methodsByScene(const BenchRun& run) {
     if (quiet.overrides.empty()) continue;
     own = tan05MethodsOf(openScene(quiet, name));
     if (own.size() < tan05Methods().size() && !run.session().common.quiet)
-      fmt::print(
-          stderr,
-          "note: scene {} has more lobes than the {} that method anisotropic takes, which is "
-          "left out\n",
-          name, kMostAnisotropicLobes);
+      fmt::print(stderr, "{}\n", withoutAnisotropicNote(name));
   }
   return methods;
 }

@@ -196,10 +196,10 @@ TextureNeed textureNeed(int width_px, int height_px, const KernelConfig& config)
     case NormalMethod::kMip:
     case NormalMethod::kToksvig:
     case NormalMethod::kVmf:
-      return alone(chain(1));
+      return {chain(1), momentBytes(width_px, height_px, 1, true)};
     case NormalMethod::kLean:
     case NormalMethod::kLeadr:
-      return alone(chain(2));
+      return {chain(2), momentBytes(width_px, height_px, 2, true)};
     case NormalMethod::kFournier:
       return {chain(config.peaks), fit(config.peaks)};
     case NormalMethod::kGmm:
@@ -216,6 +216,12 @@ TextureNeed textureNeed(int width_px, int height_px, const KernelConfig& config)
 bool readsMixture(NormalMethod method) {
   return method == NormalMethod::kGmm || method == NormalMethod::kVmfLobes ||
          method == NormalMethod::kAnisotropic;
+}
+
+std::string withoutAnisotropicNote(const std::string& scene) {
+  return fmt::format(
+      "note: scene {} has more lobes than the {} that method anisotropic takes, which is left out",
+      scene, kMostAnisotropicLobes);
 }
 
 bool takesLobesOf(NormalMethod method, const Scene& scene) {

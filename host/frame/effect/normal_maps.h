@@ -29,6 +29,8 @@ TextureNeed textureNeed(int width_px, int height_px, const KernelConfig& config)
 
 /// What eight float4 of method anisotropic hold.
 inline constexpr int kMostAnisotropicLobes = 5;
+/// Why a table goes without it in a scene of more lobes.
+std::string withoutAnisotropicNote(const std::string& scene);
 
 /// Does a method read a mixture of normals, of as many lobes as the material has?
 bool readsMixture(NormalMethod method);

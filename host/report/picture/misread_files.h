@@ -11,8 +11,8 @@ inline constexpr std::size_t kMisreadHead_bytes = 1024;
 
 /// Why the pixels that OpenImageIO 2.4 gives for a file that begins so would not be the file's:
 /// luminance of DDS (black), bit masks of BMP (channels changed about), colour maps of TGA that do
-/// not begin at 0, DPX of columns (rows of the wrong length). Empty if nothing is known against it. `name` is the file's: TGA files have no
-/// mark of their own.
+/// not begin at 0, DPX of columns (rows of the wrong length). Empty if nothing is known against it.
+/// `name` is the file's: TGA files have no mark of their own.
 std::string misreading(std::string_view head, std::string_view name);
 
 }  // namespace glintmark

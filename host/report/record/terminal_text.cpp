@@ -144,6 +144,11 @@ std::size_t indentOf(std::string_view line, std::size_t columns) {
   return text + 2;
 }
 
+std::string fittedLine(const std::string& line, std::size_t columns) {
+  if (line.starts_with("score: ")) return line;  // programs look for it
+  return isRule(line) ? line.substr(0, columns) : wrapped(line, columns, indentOf(line, columns));
+}
+
 }  // namespace
 
 std::size_t terminalColumns() {
@@ -210,10 +215,7 @@ std::string fitted(std::string_view text, std::size_t columns) {
         continue;
       }
     }
-    out += (isRule(lines[i]) ? lines[i].substr(0, columns)
-                             : wrapped(lines[i], columns, indentOf(lines[i], columns))) +
-           '\n';
-    ++i;
+    out += fittedLine(lines[i++], columns) + '\n';
   }
   if (!text.ends_with('\n') && !out.empty()) out.pop_back();
   return out;
