@@ -1,11 +1,13 @@
 // Normal maps for which there is no room are refused before they are made.
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <string>
 
 #include "host/core/error.h"
 #include "host/core/free_memory.h"
 #include "host/filter/normal_map_generators.h"
+#include "host/filter/normal_moments.h"
 #include "host/frame/effect/normal_maps.h"
 #include "host/frame/map_room.h"
 #include "host/ocl/switches.h"
@@ -71,6 +73,32 @@ TEST(MapRoom, MixturesNeedMoreThanTheirTexels) {
     EXPECT_EQ(textures.get(map, config).texels.bytes(), other.buffer_bytes) << choiceName(method);
     EXPECT_GE(other.host_bytes, other.buffer_bytes) << choiceName(method);
   }
+}
+
+// Of /proc/self/status [bytes].
+double statusBytes(const std::string& key) {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with(key + ":")) return 1024 * std::stod(line.substr(key.size() + 1));
+  return 0;
+}
+
+TEST(MapRoom, MomentsTakeAsMuchAsIsSaid) {
+  const NormalMap map = generateNormalMap({"disk", 2048});
+  const auto peak = [](const auto& make) {
+    std::ofstream("/proc/self/clear_refs") << 5;  // the peak begins anew
+    const double before_bytes = statusBytes("VmRSS");
+    [[maybe_unused]] const MipTexels made = make();
+    return statusBytes("VmHWM") - before_bytes;
+  };
+  KernelConfig config;
+  config.normal_method = NormalMethod::kToksvig;
+  const auto said = [&] {
+    return static_cast<double>(textureNeed(map.width_px, map.height_px, config).host_bytes);
+  };
+  EXPECT_NEAR(peak([&] { return meanNormals(map); }) / said(), 1, 0.12);
+  config.normal_method = NormalMethod::kLean;
+  EXPECT_NEAR(peak([&] { return leanMoments(map); }) / said(), 1, 0.12);
 }
 
 TEST(MapRoom, MemoryThatIsNotThereIsNamed) {

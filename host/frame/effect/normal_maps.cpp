@@ -186,6 +186,9 @@ TextureNeed mixtureNeed(int width_px, int height_px, const KernelConfig& config)
 TextureNeed textureNeed(int width_px, int height_px, const KernelConfig& config) {
   const auto chain = [&](int vectors) { return chainBytes(width_px, height_px, vectors); };
   const auto alone = [](std::uint64_t bytes) { return TextureNeed{bytes, bytes}; };
+  const auto moments = [&](int vectors) {
+    return momentBytes(width_px, height_px, vectors, canInterpolate(width_px, height_px));
+  };
   const auto fit = [&](int lobes) {
     return mixtureFitBytes(width_px, height_px, mixtureOptions(lobes, MixtureOrder::kColours, 0));
   };
@@ -196,10 +199,10 @@ TextureNeed textureNeed(int width_px, int height_px, const KernelConfig& config)
     case NormalMethod::kMip:
     case NormalMethod::kToksvig:
     case NormalMethod::kVmf:
-      return {chain(1), momentBytes(width_px, height_px, 1, true)};
+      return {chain(1), moments(1)};
     case NormalMethod::kLean:
     case NormalMethod::kLeadr:
-      return {chain(2), momentBytes(width_px, height_px, 2, true)};
+      return {chain(2), moments(2)};
     case NormalMethod::kFournier:
       return {chain(config.peaks), fit(config.peaks)};
     case NormalMethod::kGmm:
