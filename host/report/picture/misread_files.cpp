@@ -4,34 +4,29 @@
 #include <cctype>
 #include <cstdint>
 
+#include "host/report/picture/little_endian.h"
+
 namespace glintmark {
 namespace {
-
-std::uint32_t number(std::string_view bytes, std::size_t at, int count) {
-  std::uint32_t value = 0;
-  for (int i = count - 1; i >= 0; --i)
-    value = value << 8 | static_cast<unsigned char>(bytes[at + static_cast<std::size_t>(i)]);
-  return value;
-}
 
 // [Microsoft, "DDS_PIXELFORMAT structure"]
 bool isLuminanceDds(std::string_view head) {
   constexpr std::size_t kFlags = 80, kBits = 88;
   constexpr std::uint32_t kLuminance = 0x20000;
   return head.starts_with("DDS ") && head.size() >= 128 &&
-         (number(head, kFlags, 4) & kLuminance) != 0 && number(head, kBits, 4) <= 8;
+         (littleEndian(head, kFlags, 4) & kLuminance) != 0 && littleEndian(head, kBits, 4) <= 8;
 }
 
 // [Microsoft, "BITMAPV4HEADER structure"]
 bool hasOtherMasksBmp(std::string_view head) {
   constexpr std::size_t kBits = 28, kCompression = 30, kMasks = 54;
   constexpr std::uint32_t kBitFields = 3, kAlphaBitFields = 6;
-  if (!head.starts_with("BM") || head.size() < kMasks + 12 || number(head, kBits, 2) != 32)
+  if (!head.starts_with("BM") || head.size() < kMasks + 12 || littleEndian(head, kBits, 2) != 32)
     return false;
-  const std::uint32_t compression = number(head, kCompression, 4);
+  const std::uint64_t compression = littleEndian(head, kCompression, 4);
   if (compression != kBitFields && compression != kAlphaBitFields) return false;
-  return number(head, kMasks, 4) != 0xFF0000u || number(head, kMasks + 4, 4) != 0xFF00u ||
-         number(head, kMasks + 8, 4) != 0xFFu;
+  return littleEndian(head, kMasks, 4) != 0xFF0000u ||
+         littleEndian(head, kMasks + 4, 4) != 0xFF00u || littleEndian(head, kMasks + 8, 4) != 0xFFu;
 }
 
 bool isTga(std::string_view name) {
@@ -46,7 +41,7 @@ bool isTga(std::string_view name) {
 bool hasShiftedMapTga(std::string_view head) {
   constexpr std::size_t kHasMap = 1, kType = 2, kFirst = 3;
   if (head.size() < 18 || head[kHasMap] != 1) return false;
-  return (head[kType] == 1 || head[kType] == 9) && number(head, kFirst, 2) != 0;
+  return (head[kType] == 1 || head[kType] == 9) && littleEndian(head, kFirst, 2) != 0;
 }
 
 // Orientations from 4 on: lines that go down or up. [SMPTE 268M-2003]

@@ -11,8 +11,7 @@
 #include "host/core/atomic_file.h"
 #include "host/core/error.h"
 #include "host/core/free_memory.h"
-#include "host/core/progress.h"
-#include "host/core/stopwatch.h"
+#include "host/core/late_progress.h"
 #include "host/report/picture/image_io.h"
 #include "host/report/picture/image_layers.h"
 #include "host/report/picture/load_codec.h"
@@ -140,9 +139,7 @@ class ImageSource {
 
   /// Stops at the first rows that cannot be read, before memory for the others is touched.
   void readBands(int number, const StoredPart& part, int begin, int end, Image& image) {
-    constexpr double kSilent_ns = 2e9;
-    const Stopwatch watch;
-    Progress progress(false);
+    LateProgress progress("image " + name_);
     const std::size_t row_values =
         static_cast<std::size_t>(part.width) * static_cast<std::size_t>(end - begin);
     image.pixels.reserve(row_values * static_cast<std::size_t>(part.height));
@@ -153,9 +150,7 @@ class ImageSource {
       const std::string fault =
           file_->read(number, begin, end, first, rows, std::span(image.pixels).subspan(done));
       if (!fault.empty()) fail(fault);
-      if (watch.elapsedNs() > kSilent_ns)
-        progress.show(static_cast<int>(100.0 * (first + rows) / part.height), 100,
-                      "% of image " + name_);
+      progress.show(first + rows, part.height);
     }
   }
 

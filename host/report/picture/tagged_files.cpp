@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "host/core/atomic_file.h"
+#include "host/report/picture/little_endian.h"
 
 namespace glintmark {
 namespace {
@@ -71,13 +72,6 @@ int exifOrientation(std::string_view exif) {
   if (!directory.isThere()) return 1;
   const std::uint64_t orientation = directory.shortOf(kOrientation).value_or(1);
   return orientation >= 1 && orientation <= 8 ? static_cast<int>(orientation) : 1;
-}
-
-std::uint64_t littleEndian(std::string_view bytes, std::size_t at, std::size_t count) {
-  std::uint64_t value = 0;
-  for (std::size_t i = count; i-- > 0;)
-    value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
-  return value;
 }
 
 // The content of a chunk of a RIFF file; empty if it has none.
