@@ -11,7 +11,7 @@ file(READ ${OUTPUT} json)
 
 set(facts cpu git command)
 get_filename_component(name ${PROGRAM} NAME_WE)
-if(NOT name MATCHES "^bench_(raster|em)$")
+if(NOT name MATCHES "^bench_(raster|em|maps)$")
   list(APPEND facts device driver platform width)
 endif()
 foreach(fact ${facts})
