@@ -176,8 +176,7 @@ std::string slopesText(const Simulator& simulator, const SimulationSettings& set
   const glm::dvec2 nominal = 0.5 * settings.alpha * settings.alpha;
   return fmt::format(
       "slope variance along x and y: {:.6f} and {:.6f} nominal,\n{:.6f} and {:.6f} effective in "
-      "the last "
-      "surface\n",
+      "the last surface\n",
       nominal.x, nominal.y, 2 * nominal.x * m.variance_x, 2 * nominal.y * m.variance_y);
 }
 

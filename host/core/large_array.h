@@ -13,6 +13,14 @@ namespace glintmark {
 /// them: fewer faults while it is filled, fewer look-ups of addresses while it is read.
 inline constexpr std::size_t kLeastLargeBytes = std::size_t{4} << 20;
 
+/// Memory that begins on a large page, for std::free(), and whether the system lays it in such
+/// pages; null if there is none.
+struct LargeMemory {
+  void* begin = nullptr;
+  bool in_large_pages = false;
+};
+LargeMemory largeMemory(std::size_t bytes);
+
 /// Memory for so many items, on a page, for std::free(); throws std::bad_alloc.
 void* allocateLarge(std::size_t count, std::size_t item_bytes);
 

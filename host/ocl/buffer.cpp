@@ -6,10 +6,6 @@
 #include <utility>
 #include <vector>
 
-#ifdef __linux__
-#include <sys/mman.h>
-#endif
-
 #include "host/core/large_array.h"
 #include "host/core/stopwatch.h"
 #include "host/core/trace.h"
@@ -22,7 +18,6 @@ namespace {
 
 constexpr std::size_t kMinBytes = 4;  // OpenCL has no buffers of size zero
 constexpr std::uintptr_t kPageBytes = 4096;
-constexpr std::size_t kLargePageBytes = std::size_t{2} << 20;  // where a system has them
 
 std::string sizeText(unsigned long long bytes) {
   const double mebibytes = static_cast<double>(bytes) / (1024.0 * 1024.0);
@@ -32,13 +27,10 @@ std::string sizeText(unsigned long long bytes) {
 // Memory in large pages, if the system gives them; empty if it has none. A pixel's texels lie all
 // over a chain of mixtures, and small pages cost a frame up to a tenth of its time in look-ups of
 // addresses.
-std::shared_ptr<void> largePages([[maybe_unused]] std::size_t bytes) {
-#ifdef MADV_HUGEPAGE
-  const std::size_t whole = (bytes + kLargePageBytes - 1) / kLargePageBytes * kLargePageBytes;
-  std::shared_ptr<void> memory(std::aligned_alloc(kLargePageBytes, whole), std::free);
-  if (memory && ::madvise(memory.get(), whole, MADV_HUGEPAGE) == 0) return memory;
-#endif
-  return nullptr;
+std::shared_ptr<void> largePages(std::size_t bytes) {
+  const LargeMemory found = largeMemory(bytes);
+  const std::shared_ptr<void> memory(found.begin, std::free);
+  return found.in_large_pages ? memory : nullptr;
 }
 
 // In `host` memory, if given; drivers may refuse to use it in place, and get memory of their own.
